@@ -1,0 +1,2 @@
+//! Compiles `glsl/` to SPIR-V.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Error figures between two pictures.

@@ -1,0 +1,1 @@
+//! The oracle: double precision, on the CPU, written from the papers.

@@ -1,0 +1,38 @@
+//! What the world is: plain data, no Vulkan.
+//!
+//! Right-handed, +Y up, metres. Colours are scene-linear Rec.709; radiance in W·sr⁻¹·m⁻², radiant intensity in W·sr⁻¹.
+
+pub mod camera;
+pub mod light;
+pub mod material;
+pub mod mesh;
+pub mod settings;
+pub mod texture;
+
+pub use camera::{Camera, KeyFrame, Projection};
+pub use light::{AreaLight, AreaShape, PointLight};
+pub use material::{Material, Model, Parameter};
+pub use mesh::{Mesh, Vertex};
+pub use settings::RenderSettings;
+pub use texture::{Texels, Texture};
+
+/// A whole scene, in world space, validated: every index is in range and every number finite.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// `[render]`.
+    pub render: RenderSettings,
+    /// At least one; the first is the default.
+    pub cameras: Vec<Camera>,
+    /// Materials that meshes refer to by index.
+    pub materials: Vec<Material>,
+    /// Textures that material parameters refer to by index.
+    pub textures: Vec<Texture>,
+    /// Triangles in world space, one material a mesh.
+    pub meshes: Vec<Mesh>,
+    /// Point lights, in file order.
+    pub point_lights: Vec<PointLight>,
+    /// Area lights, in file order.
+    pub area_lights: Vec<AreaLight>,
+    /// What loading noticed and repaired, as sentences for the user.
+    pub warnings: Vec<String>,
+}
