@@ -47,9 +47,9 @@ vec3 bsdf_eval_cos(Bsdf b, vec3 wi) {
     return principled_eval_cos(b.principled, wi);
 }
 
-// f(wo, wi), for tests and tables: every model takes its quotients with cosθi in them, so dividing it out costs one ulp.
+// f(wo, wi), for tests and tables: all models have their quotients with cosθi in them, so dividing it out costs one ulp.
 vec3 bsdf_eval(Bsdf b, vec3 wi) {
-    return bsdf_eval_cos(b, wi) / max(wi.z, TINY);
+    return bsdf_eval_cos(b, wi) / max(wi.z, MIN_COSINE);
 }
 
 #endif

@@ -7,9 +7,11 @@ const float INV_PI = 0.318309886183790672;
 const float LN_2 = 0.693147180559945309;
 const float RADIANS_PER_DEGREE = 0.0174532925199432958;
 
-// Below any squared length or product of cosines that a picture can hold, far above the smallest normal float
-// (1.2e-38), so that dividing by it cannot overflow: a guard against 0/0, never a bias.
+// Guards against 0/0, never a bias: TINY is below any product of squared lengths that a picture holds and above the
+// smallest normal float, 1.2e-38; MIN_COSINE is below any cosine that float32 directions can tell from 0, and a
+// microfacet peak divided by it twice is still finite.
 const float TINY = 1e-30;
+const float MIN_COSINE = 1e-15;
 
 float sqr(float x) { return x * x; }
 vec3 sqr(vec3 x) { return x * x; }

@@ -17,7 +17,7 @@ Matte matte_setup(BsdfParameters p, vec3 wo) {
     float a = ROUGH_MATTE ? 1.0 - 0.5 * sigma2 / (sigma2 + 0.33) : 1.0;
     float b = 0.45 * sigma2 / (sigma2 + 0.09);
     vec3 lambert = p.color * (INV_PI * faces_viewer(wo));
-    return Matte(a * lambert, b * lambert, wo, 1.0 / max(wo.z, TINY));
+    return Matte(a * lambert, b * lambert, wo, 1.0 / max(wo.z, MIN_COSINE));
 }
 
 // s = wi·wo − cosθi cosθo, t = max(cosθi, cosθo); cosθi/t is taken first, since t alone may be 1e-5.

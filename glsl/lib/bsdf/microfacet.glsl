@@ -58,12 +58,12 @@ float ggx_distribution(Ggx ggx, HalfVector h) {
     return sqr(h.length2 / max(denominator, TINY));
 }
 
-// 2 cosθi V, where V = G / (4 cosθi cosθo) is Smith's height-correlated visibility, ½ / (cosθi L(wo) + cosθo L(wi)).
+// 2 cosθi V, where V = G/(4 cosθi cosθo) is Smith's height-correlated visibility, ½ / (cosθi L(wo) + cosθo L(wi)).
 float ggx_visibility_correlated(Ggx ggx, float cos_o, float cos_i, vec3 wi) {
     return cos_i / max(cos_i * ggx.stretch_o + cos_o * ggx_stretch(ggx, wi), TINY);
 }
 
-// cosθi V1(wi), V = V1(wi) V1(wo) with V1(w) = 1 / (cosθ + L(w)): Smith's separable visibility.
+// cosθi V1(wi) of Smith's separable visibility, V = V1(wi) V1(wo) with V1(w) = 1 / (cosθ + L(w)).
 float ggx_visibility_separable(Ggx ggx, float cos_i, vec3 wi) {
     return cos_i / (cos_i + ggx_stretch(ggx, wi));
 }

@@ -25,8 +25,9 @@ struct Principled {
     float coat_alpha2;
 };
 
-float clearcoat_visibility(float c) {
-    return 1.0 / (c + sqrt(CLEARCOAT_G_ALPHA2 + (1.0 - CLEARCOAT_G_ALPHA2) * sqr(c)));
+// 1 / V1(w).
+float clearcoat_shadowing(float c) {
+    return c + sqrt(CLEARCOAT_G_ALPHA2 + (1.0 - CLEARCOAT_G_ALPHA2) * sqr(c));
 }
 
 Principled principled_setup(BsdfParameters p, vec3 wo) {
@@ -54,46 +55,46 @@ Principled principled_setup(BsdfParameters p, vec3 wo) {
 
     float a2 = sqr(mix(0.1, 0.001, p.clearcoat_gloss));
     m.coat_alpha2 = a2;
-    m.coat = facing * 0.25 * p.clearcoat * clearcoat_visibility(cos_o) * (a2 - 1.0) / (PI * log_accurate(a2));
+    float gtr1_norm = INV_PI * (a2 - 1.0) / log_accurate(a2);
+    m.coat = facing * 0.25 * p.clearcoat * gtr1_norm / clearcoat_shadowing(cos_o);
     return m;
 }
 
-// Hanrahan–Krueger-like flattening, Burley's section 5.3 of the course notes, over 1.25 color/π and times cosθi.
+// Fss (1/(cosθi + cosθo) − ½) + ½: Hanrahan and Krueger's single scattering flattened to a diffuse shape.
 float principled_subsurface(Principled m, float cos_i, float fresnel_i, float fss90) {
     float fss = (1.0 + (fss90 - 1.0) * fresnel_i) * (1.0 + (fss90 - 1.0) * m.fresnel_o);
-    return fss * (cos_i / max(cos_i + m.cos_o, TINY)) + 0.5 * cos_i * (1.0 - fss);
+    return fss / max(cos_i + m.cos_o, TINY) + 0.5 * (1.0 - fss);
 }
 
-// GTR1 (γ = 1), over its normalisation (alpha² − 1)/(π ln alpha²), with V and F.
+// GTR1 (γ = 1), whose normalisation (alpha² − 1)/(π ln alpha²) is in `coat`, with V1(wi) and F.
 float principled_clearcoat(Principled m, HalfVector h, float cos_i, float schlick) {
-    float d = h.length2 / max(h.squared.x + h.squared.y + m.coat_alpha2 * h.squared.z, TINY);
-    return m.coat * d * cos_i * clearcoat_visibility(cos_i) * mix(CLEARCOAT_F0, 1.0, schlick);
+    float d = h.squared.x + h.squared.y + m.coat_alpha2 * h.squared.z;
+    float denominator = max(d * clearcoat_shadowing(cos_i), TINY);
+    return m.coat * h.length2 / denominator * mix(CLEARCOAT_F0, 1.0, schlick);
 }
 
 vec3 principled_eval_cos(Principled m, vec3 wi) {
     float cos_i = max(wi.z, 0.0);
     HalfVector h = half_vector(m.wo, wi);
-    float schlick = schlick_weight(m.wo, wi, h.length2);
+    float schlick = schlick_weight(m.wo, wi, 0.5 * sqrt(h.length2));
     float fresnel_i = pow5(max(1.0 - cos_i, 0.0));
 
     // Diffuse and retro-reflection share color/π: (1 − FL/2)(1 − FV/2) + RR (FL + FV + FL FV (RR − 1)).
     float rr = 0.5 * m.roughness * h.length2;
     float diffuse = (1.0 - 0.5 * fresnel_i) * (1.0 - 0.5 * m.fresnel_o) +
                     rr * (fresnel_i + m.fresnel_o * (1.0 + fresnel_i * (rr - 1.0)));
-    vec3 f_cos = m.diffuse * (cos_i * diffuse);
-
     float lobe = ggx_distribution(m.ggx, h) * ggx_visibility_separable(m.ggx, cos_i, wi);
-    f_cos += m.f0 * (lobe - lobe * schlick);
-    float white = m.f90 * lobe * schlick;
+    vec3 f_cos = m.diffuse * (cos_i * diffuse) + m.f0 * (lobe - lobe * schlick);
+    float white = m.f90 * (lobe * schlick);
 
     if (LOBE_SUBSURFACE) {
-        f_cos += m.subsurface * principled_subsurface(m, cos_i, fresnel_i, 0.5 * rr);
+        f_cos += m.subsurface * (cos_i * principled_subsurface(m, cos_i, fresnel_i, 0.5 * rr));
     }
     if (LOBE_SHEEN) {
         f_cos += m.sheen * (cos_i * schlick);
     }
     if (LOBE_CLEARCOAT) {
-        white += principled_clearcoat(m, h, cos_i, schlick);
+        white += cos_i * principled_clearcoat(m, h, cos_i, schlick);
     }
     return f_cos + white;
 }

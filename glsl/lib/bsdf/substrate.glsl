@@ -30,7 +30,7 @@ Substrate substrate_setup(BsdfParameters p, vec3 wo) {
     m.coat = (facing * 0.25 * m.ggx.norm) * p.specular;
     m.white = (facing * 0.25 * m.ggx.norm) * (1.0 - p.specular);
     m.wo = wo;
-    m.inv_cos_o = 1.0 / max(wo.z, TINY);
+    m.inv_cos_o = 1.0 / max(wo.z, MIN_COSINE);
     return m;
 }
 
@@ -38,8 +38,9 @@ Substrate substrate_setup(BsdfParameters p, vec3 wo) {
 vec3 substrate_eval_cos(Substrate m, vec3 wi) {
     float cos_i = max(wi.z, 0.0);
     HalfVector h = half_vector(m.wo, wi);
-    float lobe = ggx_distribution(m.ggx, h) * min(cos_i * m.inv_cos_o, 1.0) / max(0.5 * sqrt(h.length2), TINY);
-    vec3 fresnel = m.coat + m.white * schlick_weight(m.wo, wi, h.length2);
+    float cosine = 0.5 * sqrt(h.length2);
+    float lobe = ggx_distribution(m.ggx, h) * min(cos_i * m.inv_cos_o, 1.0) / max(cosine, MIN_COSINE);
+    vec3 fresnel = m.coat + m.white * schlick_weight(m.wo, wi, cosine);
     return m.base * (cos_i * substrate_transmission(cos_i)) + fresnel * lobe;
 }
 
