@@ -59,8 +59,12 @@ pub struct StructLayout {
 }
 
 macro_rules! field_type {
-    ($type:ident) => { $type };
-    ($type:ident $count:literal) => { [$type; $count] };
+    ($type:ident) => {
+        $type
+    };
+    ($type:ident $count:literal) => {
+        [$type; $count]
+    };
 }
 
 macro_rules! shared {
@@ -132,7 +136,7 @@ shared! {
         /// log2 of it.
         LIGHTS_PER_ROW_LOG2 = 9;
         /// log2 of the rows of a layer of the light texture.
-        LIGHT_ROWS_LOG2 = 11;
+        LIGHT_ROWS_LOG2 = 12;
         /// log2 of the texels across a layer of light lists.
         LIST_WIDTH_LOG2 = 10;
         /// log2 of the rows of a layer of light lists.
@@ -349,6 +353,23 @@ shared! {
         MaterialRecord {
             /// Constant of each row.
             rows: vec4[15];
+        }
+        /// A row of the BSDF probe.
+        BsdfProbeRow {
+            /// Color rgb, alpha_x.
+            color_alpha_x: vec4;
+            /// Specular rgb, alpha_y.
+            specular_alpha_y: vec4;
+            /// Sigma in degrees, eta, metallic, roughness.
+            surface: vec4;
+            /// Specular tint, sheen, sheen tint, clearcoat.
+            tints: vec4;
+            /// Clearcoat gloss, subsurface.
+            rest: vec4;
+            /// Local frame.
+            wo: vec4;
+            /// Local frame.
+            wi: vec4;
         }
         /// Pairs of pixel and light in a tile.
         TilePairs {

@@ -4,31 +4,20 @@
 
 #include "shared.glsl"
 
-layout(constant_id = 0) const int MODEL = 0;
+layout(constant_id = 0) const uint MODEL = MODEL_MATTE;
 layout(constant_id = 1) const bool ANISOTROPIC = true;
-layout(constant_id = 2) const bool ROUGH_MATTE = true;
-layout(constant_id = 3) const bool LOBE_SUBSURFACE = true;
+layout(constant_id = 3) const bool ROUGH_MATTE = true;
 layout(constant_id = 4) const bool LOBE_SHEEN = true;
 layout(constant_id = 5) const bool LOBE_CLEARCOAT = true;
-layout(constant_id = 6) const bool LOBE_METALLIC = true;
+layout(constant_id = 6) const bool LOBE_SUBSURFACE = true;
+layout(constant_id = 7) const bool LOBE_METALLIC = true;
 
 #include "lib/bsdf.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = LINEAR_GROUP) in;
 
-// The row, 112 bytes: to be replaced by the struct of shared.glsl.
-struct BsdfProbeRow {
-    vec4 color_alpha_x;    // color rgb, alpha_x
-    vec4 specular_alpha_y; // specular rgb, alpha_y
-    vec4 surface;          // sigma (degrees), eta, metallic, roughness
-    vec4 tints;            // specular_tint, sheen, sheen_tint, clearcoat
-    vec4 rest;             // clearcoat_gloss, subsurface, unused, unused
-    vec4 wo;               // local frame, w unused
-    vec4 wi;
-};
-
-layout(set = 0, binding = 0, std430) readonly buffer Rows { BsdfProbeRow rows[]; };
-layout(set = 0, binding = 1, std430) writeonly buffer Values { vec4 values[]; }; // f rgb without the cosine, 0
+layout(set = SET_probe, binding = PROBE_IN, std430) readonly buffer Rows { BsdfProbeRow rows[]; };
+layout(set = SET_probe, binding = PROBE_OUT, std430) writeonly buffer Values { vec4 values[]; }; // f rgb without the cosine, 0
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

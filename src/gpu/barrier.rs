@@ -57,10 +57,17 @@ impl Use {
             ),
             // GENERAL: the same images are written as storage images each frame.
             Self::FragmentRead => (S::FRAGMENT_SHADER, A::SHADER_READ, L::GENERAL),
-            Self::Texture => (S::FRAGMENT_SHADER, A::SHADER_READ, L::SHADER_READ_ONLY_OPTIMAL),
+            Self::Texture => (
+                S::FRAGMENT_SHADER,
+                A::SHADER_READ,
+                L::SHADER_READ_ONLY_OPTIMAL,
+            ),
             Self::DepthWrite => (
                 DEPTH_TESTS,
-                A::from_raw(A::DEPTH_STENCIL_ATTACHMENT_READ.as_raw() | A::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw()),
+                A::from_raw(
+                    A::DEPTH_STENCIL_ATTACHMENT_READ.as_raw()
+                        | A::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
+                ),
                 L::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
             ),
             Self::DepthRead => (
@@ -73,7 +80,11 @@ impl Use {
                 A::from_raw(A::COLOR_ATTACHMENT_READ.as_raw() | A::COLOR_ATTACHMENT_WRITE.as_raw()),
                 L::COLOR_ATTACHMENT_OPTIMAL,
             ),
-            Self::InputRead => (S::FRAGMENT_SHADER, A::INPUT_ATTACHMENT_READ, L::SHADER_READ_ONLY_OPTIMAL),
+            Self::InputRead => (
+                S::FRAGMENT_SHADER,
+                A::INPUT_ATTACHMENT_READ,
+                L::SHADER_READ_ONLY_OPTIMAL,
+            ),
         }
     }
 
@@ -86,5 +97,7 @@ impl Use {
 /// A memory barrier over all buffers: `before` happens, then `after` sees it.
 #[must_use]
 pub(super) fn memory(before: Use, after: Use) -> vk::MemoryBarrier<'static> {
-    vk::MemoryBarrier::default().src_access_mask(before.scope().1).dst_access_mask(after.scope().1)
+    vk::MemoryBarrier::default()
+        .src_access_mask(before.scope().1)
+        .dst_access_mask(after.scope().1)
 }

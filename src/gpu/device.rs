@@ -68,38 +68,48 @@ impl Device {
     /// [`Error::NoDevice`] without a loader.
     pub fn enumerate() -> Result<Vec<DeviceInfo>> {
         let instance = Instance::new(false)?;
-        Ok(candidates(&instance)?.into_iter().map(|candidate| candidate.info).collect())
+        Ok(candidates(&instance)?
+            .into_iter()
+            .map(|candidate| candidate.info)
+            .collect())
     }
 
     fn create(instance: Instance, chosen: Candidate) -> Result<Self> {
         let priorities = [1.0];
-        let queues =
-            [vk::DeviceQueueCreateInfo::default().queue_family_index(chosen.family).queue_priorities(&priorities)];
+        let queues = [vk::DeviceQueueCreateInfo::default()
+            .queue_family_index(chosen.family)
+            .queue_priorities(&priorities)];
         // SAFETY: the device belongs to the instance.
         let supported = unsafe { instance.raw.get_physical_device_features(chosen.physical) };
         let features = vk::PhysicalDeviceFeatures {
             sampler_anisotropy: supported.sampler_anisotropy,
             ..vk::PhysicalDeviceFeatures::default()
         };
-        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_features(&features);
+        let info = vk::DeviceCreateInfo::default()
+            .queue_create_infos(&queues)
+            .enabled_features(&features);
         // SAFETY: the queue family exists, and only supported features are turned on.
-        let raw =
-            unsafe { instance.raw.create_device(chosen.physical, &info, None) }.called("vkCreateDevice")?;
+        let raw = unsafe { instance.raw.create_device(chosen.physical, &info, None) }
+            .called("vkCreateDevice")?;
         // SAFETY: queue 0 of the family was asked for above.
         let queue = unsafe { raw.get_device_queue(chosen.family, 0) };
         let pool_info = vk::CommandPoolCreateInfo::default()
             .queue_family_index(chosen.family)
             .flags(vk::CommandPoolCreateFlags::TRANSIENT);
         // SAFETY: as above.
-        let pool = unsafe { raw.create_command_pool(&pool_info, None) }.called("vkCreateCommandPool")?;
-        let debug = instance.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw));
+        let pool =
+            unsafe { raw.create_command_pool(&pool_info, None) }.called("vkCreateCommandPool")?;
+        let debug = instance
+            .debug_utils
+            .then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw));
         let memory = Memory::new(&instance.raw, &raw, chosen.physical)?;
         Ok(Self {
             memory,
             debug,
             timestamp_period: chosen.limits.timestamp_period,
             timestamp_bits: chosen.timestamp_bits,
-            max_anisotropy: (supported.sampler_anisotropy == vk::TRUE).then_some(chosen.limits.max_sampler_anisotropy),
+            max_anisotropy: (supported.sampler_anisotropy == vk::TRUE)
+                .then_some(chosen.limits.max_sampler_anisotropy),
             info: chosen.info,
             queue,
             pool,
@@ -134,7 +144,10 @@ impl Device {
     pub fn require_silence(&self) -> Result<()> {
         match self.validation_messages().unwrap_or_default() {
             messages if messages.is_empty() => Ok(()),
-            messages => Err(Error::Validation { count: messages.len(), first: messages[0].clone() }),
+            messages => Err(Error::Validation {
+                count: messages.len(),
+                first: messages[0].clone(),
+            }),
         }
     }
 
@@ -142,11 +155,18 @@ impl Device {
     ///
     /// # Errors
     /// [`Error::Vulkan`] from recording or from the driver.
-    pub fn run<T>(self: &Arc<Self>, name: &str, record: impl FnOnce(&mut Commands) -> Result<T>) -> Result<T> {
+    pub fn run<T>(
+        self: &Arc<Self>,
+        name: &str,
+        record: impl FnOnce(&mut Commands) -> Result<T>,
+    ) -> Result<T> {
         let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
-        let info = vk::CommandBufferAllocateInfo::default().command_pool(self.pool).command_buffer_count(1);
+        let info = vk::CommandBufferAllocateInfo::default()
+            .command_pool(self.pool)
+            .command_buffer_count(1);
         // SAFETY: the pool belongs to this device, and this thread has the turn.
-        let buffers = unsafe { self.raw.allocate_command_buffers(&info) }.called("vkAllocateCommandBuffers")?;
+        let buffers = unsafe { self.raw.allocate_command_buffers(&info) }
+            .called("vkAllocateCommandBuffers")?;
         let result = Commands::record(self, buffers[0], name, record).and_then(|value| {
             self.submit_and_wait(buffers[0])?;
             Ok(value)
@@ -160,15 +180,23 @@ impl Device {
         let buffers = [buffer];
         let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
         // SAFETY: the buffer is fully recorded, and is not resubmitted.
-        unsafe { self.raw.queue_submit(self.queue, &submits, vk::Fence::null()) }.called("vkQueueSubmit")?;
+        unsafe {
+            self.raw
+                .queue_submit(self.queue, &submits, vk::Fence::null())
+        }
+        .called("vkQueueSubmit")?;
         // SAFETY: this thread has the turn.
         unsafe { self.raw.queue_wait_idle(self.queue) }.called("vkQueueWaitIdle")
     }
 
     /// Names an object in captures and validation messages.
     pub(super) fn name<H: vk::Handle>(&self, handle: H, name: &str) {
-        let (Some(debug), Ok(name)) = (&self.debug, std::ffi::CString::new(name)) else { return };
-        let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
+        let (Some(debug), Ok(name)) = (&self.debug, std::ffi::CString::new(name)) else {
+            return;
+        };
+        let info = vk::DebugUtilsObjectNameInfoEXT::default()
+            .object_handle(handle)
+            .object_name(&name);
         // SAFETY: the handle is alive. A name that cannot be set is no reason to stop.
         let _ = unsafe { debug.set_debug_utils_object_name(&info) };
     }
@@ -195,8 +223,12 @@ struct Candidate {
 
 fn candidates(instance: &Instance) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
-    let devices = unsafe { instance.raw.enumerate_physical_devices() }.called("vkEnumeratePhysicalDevices")?;
-    Ok(devices.into_iter().map(|physical| describe(&instance.raw, physical)).collect())
+    let devices = unsafe { instance.raw.enumerate_physical_devices() }
+        .called("vkEnumeratePhysicalDevices")?;
+    Ok(devices
+        .into_iter()
+        .map(|physical| describe(&instance.raw, physical))
+        .collect())
 }
 
 fn describe(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Candidate {
@@ -208,7 +240,9 @@ fn describe(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Candidate
     // SAFETY: as above.
     let queues = unsafe { instance.get_physical_device_queue_family_properties(physical) };
     let family = requirements::queue_family(&queues).unwrap_or(0);
-    let timestamp_bits = queues.get(family as usize).map_or(0, |queue| queue.timestamp_valid_bits);
+    let timestamp_bits = queues
+        .get(family as usize)
+        .map_or(0, |queue| queue.timestamp_valid_bits);
     let (kind, rank) = match properties.device_type {
         vk::PhysicalDeviceType::DISCRETE_GPU => ("discrete", 0),
         vk::PhysicalDeviceType::INTEGRATED_GPU => ("integrated", 1),
@@ -216,30 +250,54 @@ fn describe(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Candidate
         vk::PhysicalDeviceType::CPU => ("cpu", 3),
         _ => ("other", 4),
     };
-    let text = |raw: Result<&std::ffi::CStr, _>| raw.map_or_else(|_| "?".into(), |s| s.to_string_lossy().into_owned());
-    let report = requirements::check(&Facts { instance, device: physical, properties, queues });
+    let text = |raw: Result<&std::ffi::CStr, _>| {
+        raw.map_or_else(|_| "?".into(), |s| s.to_string_lossy().into_owned())
+    };
+    let report = requirements::check(&Facts {
+        instance,
+        device: physical,
+        properties,
+        queues,
+    });
     let info = DeviceInfo {
         name: text(properties.device_name_as_c_str()),
-        driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str())),
+        driver: format!(
+            "{} {}",
+            text(driver.driver_name_as_c_str()),
+            text(driver.driver_info_as_c_str())
+        ),
         api: requirements::version_text(properties.api_version),
         kind,
         report,
     };
-    Candidate { physical, info, limits: properties.limits, family, timestamp_bits, rank }
+    Candidate {
+        physical,
+        info,
+        limits: properties.limits,
+        family,
+        timestamp_bits,
+        rank,
+    }
 }
 
 fn choose(mut candidates: Vec<Candidate>, wanted: Option<&str>) -> Result<Candidate> {
     if candidates.is_empty() {
         return Err(Error::NoDevice {
             cause: "the machine has no Vulkan driver".into(),
-            remedy: "run ./setup, or install a driver; mesa-vulkan-drivers renders on the CPU".into(),
+            remedy: "run ./setup, or install a driver; mesa-vulkan-drivers renders on the CPU"
+                .into(),
         });
     }
-    let names: Vec<String> =
-        candidates.iter().enumerate().map(|(i, candidate)| format!("{i}: {}", candidate.info.name)).collect();
+    let names: Vec<String> = candidates
+        .iter()
+        .enumerate()
+        .map(|(i, candidate)| format!("{i}: {}", candidate.info.name))
+        .collect();
     let index = match wanted {
         Some(wanted) => find(&candidates, wanted),
-        None => (0..candidates.len()).filter(|&i| candidates[i].info.report.missing().is_none()).min_by_key(|&i| candidates[i].rank),
+        None => (0..candidates.len())
+            .filter(|&i| candidates[i].info.report.missing().is_none())
+            .min_by_key(|&i| candidates[i].rank),
     };
     match index {
         Some(index) => {
@@ -250,13 +308,23 @@ fn choose(mut candidates: Vec<Candidate>, wanted: Option<&str>) -> Result<Candid
             }
         }
         None if wanted.is_some() => Err(Error::NoDevice {
-            cause: format!("no device is named {:?}; there are {}", wanted.unwrap_or_default(), names.join(", ")),
+            cause: format!(
+                "no device is named {:?}; there are {}",
+                wanted.unwrap_or_default(),
+                names.join(", ")
+            ),
             remedy: "choose one of these with --device NAME or --device INDEX".into(),
         }),
         None => {
             let reasons: Vec<String> = candidates
                 .iter()
-                .map(|c| format!("{}: {}", c.info.name, c.info.report.missing().unwrap_or_default()))
+                .map(|c| {
+                    format!(
+                        "{}: {}",
+                        c.info.name,
+                        c.info.report.missing().unwrap_or_default()
+                    )
+                })
                 .collect();
             Err(unusable(&reasons.join("; ")))
         }
@@ -264,7 +332,10 @@ fn choose(mut candidates: Vec<Candidate>, wanted: Option<&str>) -> Result<Candid
 }
 
 fn unusable(cause: &str) -> Error {
-    Error::NoDevice { cause: cause.into(), remedy: "update the driver, or install mesa-vulkan-drivers".into() }
+    Error::NoDevice {
+        cause: cause.into(),
+        remedy: "update the driver, or install mesa-vulkan-drivers".into(),
+    }
 }
 
 fn find(candidates: &[Candidate], wanted: &str) -> Option<usize> {
@@ -273,6 +344,7 @@ fn find(candidates: &[Candidate], wanted: &str) -> Option<usize> {
     }
     let wanted = wanted.to_lowercase();
     candidates.iter().position(|candidate| {
-        candidate.info.name.to_lowercase().contains(&wanted) || candidate.info.driver.to_lowercase().contains(&wanted)
+        candidate.info.name.to_lowercase().contains(&wanted)
+            || candidate.info.driver.to_lowercase().contains(&wanted)
     })
 }

@@ -14,11 +14,17 @@ pub(super) struct ValidationLog(Mutex<Vec<String>>);
 
 impl ValidationLog {
     pub(super) fn messages(&self) -> Vec<String> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
     }
 
     fn push(&self, message: String) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(message);
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push(message);
     }
 }
 
@@ -38,14 +44,21 @@ impl Instance {
         // SAFETY: the loader's library is trusted to be Vulkan's; it stays loaded as long as `Instance`.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoDevice {
             cause: format!("the Vulkan loader cannot be loaded ({error})"),
-            remedy: "run ./setup, or install libvulkan1 and a driver such as mesa-vulkan-drivers".into(),
+            remedy: "run ./setup, or install libvulkan1 and a driver such as mesa-vulkan-drivers"
+                .into(),
         })?;
         let debug_utils = has_extension(&entry, ash::ext::debug_utils::NAME)?;
         if validate {
             require_validation(&entry)?;
         }
         let raw = create(&entry, validate, debug_utils)?;
-        let mut instance = Self { raw, log: None, debug_utils, messenger: None, _entry: entry };
+        let mut instance = Self {
+            raw,
+            log: None,
+            debug_utils,
+            messenger: None,
+            _entry: entry,
+        };
         if validate {
             instance.listen()?;
         }
@@ -57,10 +70,12 @@ impl Instance {
         let loader = ash::ext::debug_utils::Instance::new(&self._entry, &self.raw);
         let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
             .message_severity(
-                vk::DebugUtilsMessageSeverityFlagsEXT::ERROR | vk::DebugUtilsMessageSeverityFlagsEXT::WARNING,
+                vk::DebugUtilsMessageSeverityFlagsEXT::ERROR
+                    | vk::DebugUtilsMessageSeverityFlagsEXT::WARNING,
             )
             .message_type(
-                vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
+                vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION
+                    | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
             )
             .pfn_user_callback(Some(on_message))
             .user_data(Arc::as_ptr(&log).cast_mut().cast());
@@ -111,13 +126,19 @@ fn has_extension(entry: &ash::Entry, name: &CStr) -> Result<bool> {
     // SAFETY: no layer name is passed; the loader fills an array that ash owns.
     let found = unsafe { entry.enumerate_instance_extension_properties(None) }
         .called("vkEnumerateInstanceExtensionProperties")?;
-    Ok(found.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name)))
+    Ok(found
+        .iter()
+        .any(|extension| extension.extension_name_as_c_str() == Ok(name)))
 }
 
 fn require_validation(entry: &ash::Entry) -> Result<()> {
     // SAFETY: the loader fills an array that ash owns.
-    let layers = unsafe { entry.enumerate_instance_layer_properties() }.called("vkEnumerateInstanceLayerProperties")?;
-    if layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER)) {
+    let layers = unsafe { entry.enumerate_instance_layer_properties() }
+        .called("vkEnumerateInstanceLayerProperties")?;
+    if layers
+        .iter()
+        .any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER))
+    {
         return Ok(());
     }
     Err(Error::usage(
@@ -139,7 +160,9 @@ unsafe extern "system" fn on_message(
     // SAFETY: see above; `p_message` is a terminated string.
     let text: *const c_char = unsafe { (*data).p_message };
     // SAFETY: see above.
-    let text = unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned();
+    let text = unsafe { CStr::from_ptr(text) }
+        .to_string_lossy()
+        .into_owned();
     log.push(text);
     vk::FALSE
 }

@@ -27,7 +27,9 @@ pub use command::Commands;
 pub use descriptor::{DescriptorSet, DescriptorSets, PipelineLayout, SetLayout};
 pub use device::{Device, DeviceInfo, Options};
 pub use image::{Image, ImageDescription};
-pub use pipeline::{Blend, ComputePipeline, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, Specialization};
+pub use pipeline::{
+    Blend, ComputePipeline, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, Specialization,
+};
 pub use query::Timestamps;
 pub use render_pass::{Attachment, Framebuffer, Outside, RenderPass, Subpass};
 pub use requirements::{Check, Report};
@@ -45,10 +47,16 @@ fn failed(call: impl Into<String>, result: vk::Result) -> Error {
         vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
             "render a smaller picture or fewer lights, or free memory"
         }
-        vk::Result::ERROR_DEVICE_LOST => "update the driver, or choose another device with --device",
+        vk::Result::ERROR_DEVICE_LOST => {
+            "update the driver, or choose another device with --device"
+        }
         _ => "run again with --validate, and report what it says",
     };
-    Error::Vulkan { call: call.into(), result: format!("{result:?}"), remedy: remedy.into() }
+    Error::Vulkan {
+        call: call.into(),
+        result: format!("{result:?}"),
+        remedy: remedy.into(),
+    }
 }
 
 /// Attaches the call's name to a raw result.

@@ -23,12 +23,17 @@ impl Timestamps {
         let pool = if device.timestamp_bits == 0 {
             None
         } else {
-            let info =
-                vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(count.max(1));
+            let info = vk::QueryPoolCreateInfo::default()
+                .query_type(vk::QueryType::TIMESTAMP)
+                .query_count(count.max(1));
             // SAFETY: the count is not 0.
             Some(unsafe { device.raw.create_query_pool(&info, None) }.called("vkCreateQueryPool")?)
         };
-        Ok(Self { pool, count, device: device.clone() })
+        Ok(Self {
+            pool,
+            count,
+            device: device.clone(),
+        })
     }
 
     /// Milliseconds between neighbouring timestamps of finished work; `None` where the device has none.
@@ -36,7 +41,9 @@ impl Timestamps {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn intervals(&self) -> Result<Option<Vec<f64>>> {
-        let Some(pool) = self.pool else { return Ok(None) };
+        let Some(pool) = self.pool else {
+            return Ok(None);
+        };
         let mut ticks = vec![0_u64; self.count as usize];
         // SAFETY: every query of the pool was written by the work just waited for.
         unsafe {
@@ -50,7 +57,12 @@ impl Timestamps {
         .called("vkGetQueryPoolResults")?;
         let mask = u64::MAX >> (64 - self.device.timestamp_bits.clamp(1, 64));
         let period = f64::from(self.device.timestamp_period) * 1e-6;
-        Ok(Some(ticks.windows(2).map(|pair| (pair[1].wrapping_sub(pair[0]) & mask) as f64 * period).collect()))
+        Ok(Some(
+            ticks
+                .windows(2)
+                .map(|pair| (pair[1].wrapping_sub(pair[0]) & mask) as f64 * period)
+                .collect(),
+        ))
     }
 }
 
@@ -68,7 +80,11 @@ impl Commands {
     pub fn reset_timestamps(&mut self, timestamps: &Timestamps) {
         if let Some(pool) = timestamps.pool {
             // SAFETY: the range is the whole pool.
-            unsafe { self.device.raw.cmd_reset_query_pool(self.raw, pool, 0, timestamps.count) };
+            unsafe {
+                self.device
+                    .raw
+                    .cmd_reset_query_pool(self.raw, pool, 0, timestamps.count)
+            };
         }
     }
 

@@ -29,12 +29,17 @@ impl Sampler {
             .address_mode_v(vk::SamplerAddressMode::REPEAT)
             .max_lod(vk::LOD_CLAMP_NONE);
         if let Some(most) = device.max_anisotropy {
-            info = info.anisotropy_enable(true).max_anisotropy(ANISOTROPY.min(most));
+            info = info
+                .anisotropy_enable(true)
+                .max_anisotropy(ANISOTROPY.min(most));
         }
         // SAFETY: anisotropy is on only where the feature is.
         let raw = unsafe { device.raw.create_sampler(&info, None) }.called("vkCreateSampler")?;
         device.name(raw, "trilinear repeat");
-        Ok(Self { raw, device: device.clone() })
+        Ok(Self {
+            raw,
+            device: device.clone(),
+        })
     }
 }
 

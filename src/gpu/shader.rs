@@ -25,7 +25,7 @@ impl Stage {
 
 /// SPIR-V as bytes in the binary; [`Shader::words`] reads them as words.
 #[derive(Clone, Copy, Debug)]
-pub struct Words(pub(super) &'static [u8]);
+pub(super) struct Words(pub(super) &'static [u8]);
 
 /// A compiled shader.
 #[derive(Clone, Copy, Debug)]
