@@ -1,1 +1,17 @@
-//! The oracle: double precision, on the CPU, written from the papers.
+//! The oracle: double precision, on the CPU, written from the papers and not from the shaders.
+//!
+//! Exact up to rounding: camera rays and hits ([`rays`]), shading frames and BSDFs ([`shading`], [`bsdf`]), the sum over
+//! point lights ([`lights`]). An unbiased estimate with its standard error: area lights ([`area`]) and pixels of more
+//! than one ray ([`render()`]).
+
+pub mod area;
+pub mod bsdf;
+pub mod lights;
+pub mod rays;
+mod render;
+mod sampler;
+pub mod shading;
+mod texture;
+mod tree;
+
+pub use render::{Integrator, Options, Rendered, render};

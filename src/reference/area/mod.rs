@@ -1,0 +1,255 @@
+//! Direct light of area lights, unshadowed, by multiple importance sampling in double precision.
+//!
+//! One strategy samples the light's area, the other the BSDF; the balance heuristic weighs them (Veach 1997), so that
+//! the integrand over the summed densities is bounded both for a light that touches the surface and for a mirror-like
+//! lobe. Each strategy runs [`SHIFTS`] independent random shifts of a quasi-random sequence; their spread is the
+//! standard error. The number of points doubles until that error is small enough.
+
+mod cylinder;
+mod planar;
+
+use glam::{DVec2, DVec3};
+
+use self::cylinder::Cylinder;
+use self::planar::Planar;
+use super::rays::Ray;
+use super::sampler::{Sequence, hash};
+use super::shading::Surface;
+use super::texture::{Wrap, sample};
+use crate::scene::{AreaLight, AreaShape, Texture};
+
+/// Independent estimates from which the standard error is taken.
+const SHIFTS: usize = 8;
+/// Points of each strategy and shift at first, and at most.
+const POINTS: [u32; 2] = [32, 4096];
+
+/// An area light in double precision.
+#[derive(Clone, Debug)]
+pub struct Emitter<'a> {
+    shape: Shape,
+    radiance: DVec3,
+    two_sided: bool,
+    visible: bool,
+    texture: Option<&'a Texture>,
+}
+
+#[derive(Clone, Debug)]
+enum Shape {
+    Planar(Planar),
+    Cylinder(Cylinder),
+}
+
+/// A point of a light as seen from a point in space.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    /// Unit direction towards the light.
+    wi: DVec3,
+    /// Metres.
+    distance: f64,
+    /// The light's front is seen.
+    front: bool,
+    /// Texture coordinates.
+    uv: DVec2,
+    /// Density of the light's sampling per solid angle at the point, sr⁻¹.
+    pdf: f64,
+}
+
+/// A number per channel with its standard error.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Estimate {
+    /// Mean.
+    pub value: DVec3,
+    /// Standard error of the mean.
+    pub standard_error: DVec3,
+}
+
+impl<'a> Emitter<'a> {
+    /// Prepares a light; `textures` are the scene's.
+    #[must_use]
+    pub fn new(light: &AreaLight, textures: &'a [Texture]) -> Self {
+        let shape = match &light.shape {
+            AreaShape::Line { a, b, radius } => Shape::Cylinder(Cylinder::new(
+                a.as_dvec3(),
+                b.as_dvec3(),
+                f64::from(*radius),
+            )),
+            AreaShape::Rect { center, u, v } => {
+                Shape::Planar(Planar::rect(center.as_dvec3(), u.as_dvec3(), v.as_dvec3()))
+            }
+            AreaShape::Disk { center, u, v } => Shape::Planar(Planar::ellipse(
+                center.as_dvec3(),
+                u.as_dvec3(),
+                v.as_dvec3(),
+            )),
+            AreaShape::Polygon {
+                vertices,
+                holes,
+                uvs,
+            } => Shape::Planar(Planar::polygon(vertices, holes, uvs.as_deref())),
+        };
+        Self {
+            shape,
+            radiance: light.radiance.as_dvec3(),
+            two_sided: light.two_sided,
+            visible: light.visible,
+            texture: light.texture.and_then(|index| textures.get(index as usize)),
+        }
+    }
+
+    /// Where a ray meets a luminaire that is seen: the distance, and the radiance (black on the back of a one-sided
+    /// one, which occludes all the same).
+    #[must_use]
+    pub fn seen_by(&self, ray: &Ray) -> Option<(f64, DVec3)> {
+        let seen = if self.visible {
+            self.along(ray.origin, ray.direction)
+        } else {
+            None
+        };
+        seen.map(|seen| (seen.distance, self.emitted(&seen)))
+    }
+
+    fn along(&self, origin: DVec3, direction: DVec3) -> Option<Seen> {
+        match &self.shape {
+            Shape::Planar(shape) => shape.along(origin, direction),
+            Shape::Cylinder(shape) => shape.along(origin, direction),
+        }
+    }
+
+    fn sample(&self, origin: DVec3, xi: DVec2) -> Option<Seen> {
+        match &self.shape {
+            Shape::Planar(shape) => shape.sample(origin, xi),
+            Shape::Cylinder(shape) => shape.sample(origin, xi),
+        }
+    }
+
+    /// Radiance leaving towards the observer.
+    fn emitted(&self, seen: &Seen) -> DVec3 {
+        if !(seen.front || self.two_sided) {
+            return DVec3::ZERO;
+        }
+        let texel = self
+            .texture
+            .map_or(DVec3::ONE, |t| sample(t, seen.uv, Wrap::Clamp));
+        self.radiance * texel
+    }
+
+    /// One point of each strategy.
+    fn reflected_once(&self, surface: &Surface, xi: [DVec2; 2]) -> DVec3 {
+        let by_light = self.sample(surface.position, xi[0]);
+        let local = surface.bsdf.sample(surface.wo, xi[1]);
+        let by_bsdf = if local.z > 0.0 {
+            self.along(surface.position, surface.frame.to_world(local))
+        } else {
+            None
+        };
+        let term = |seen: Option<Seen>| seen.map_or(DVec3::ZERO, |s| self.weighed(surface, &s));
+        term(by_light) + term(by_bsdf)
+    }
+
+    /// f cosθ L over the sum of both densities.
+    fn weighed(&self, surface: &Surface, seen: &Seen) -> DVec3 {
+        let wi = surface.frame.to_local(seen.wi);
+        let pdf = seen.pdf + surface.bsdf.pdf(surface.wo, wi);
+        if wi.z <= 0.0 || pdf.is_nan() || pdf <= 0.0 {
+            return DVec3::ZERO;
+        }
+        surface.bsdf.eval(surface.wo, wi) * self.emitted(seen) * (wi.z / pdf)
+    }
+}
+
+/// The running estimate of one light at one surface.
+struct Running<'a> {
+    emitter: &'a Emitter<'a>,
+    sequences: [[Sequence; 2]; SHIFTS],
+    sums: [DVec3; SHIFTS],
+    points: u32,
+}
+
+impl<'a> Running<'a> {
+    fn new(emitter: &'a Emitter<'a>, seed: u64) -> Self {
+        let sequence =
+            |shift: usize, strategy: u64| Sequence::new(hash(&[seed, shift as u64, strategy]));
+        let sequences = std::array::from_fn(|shift| [sequence(shift, 0), sequence(shift, 1)]);
+        Self {
+            emitter,
+            sequences,
+            sums: [DVec3::ZERO; SHIFTS],
+            points: 0,
+        }
+    }
+
+    fn extend(&mut self, surface: &Surface, points: u32) {
+        for (sum, sequences) in self.sums.iter_mut().zip(&self.sequences) {
+            for index in self.points..points {
+                let xi = sequences.map(|sequence| sequence.point(index));
+                *sum += self.emitter.reflected_once(surface, xi);
+            }
+        }
+        self.points = points;
+    }
+
+    fn estimate(&self) -> Estimate {
+        mean(&self.sums.map(|sum| sum / f64::from(self.points)))
+    }
+}
+
+/// Mean of independent estimates, with its standard error.
+pub(super) fn mean(estimates: &[DVec3]) -> Estimate {
+    let n = estimates.len() as f64;
+    let value = estimates.iter().sum::<DVec3>() / n;
+    let squares: DVec3 = estimates.iter().map(|e| (e - value) * (e - value)).sum();
+    let variance = squares / (n * (n - 1.0).max(1.0));
+    Estimate {
+        value,
+        standard_error: variance.map(f64::sqrt),
+    }
+}
+
+/// Light of all `emitters` reflected by `surface` towards the viewer, W·sr⁻¹·m⁻².
+///
+/// Points are added until each light's standard error is at most `tolerance` of the sum (shared by the square root of
+/// the number of lights), or [`POINTS`] are spent. Same seed, same result.
+#[must_use]
+pub fn reflected(surface: &Surface, emitters: &[Emitter], tolerance: f64, seed: u64) -> Estimate {
+    if surface.wo.z <= 0.0 || emitters.is_empty() {
+        return Estimate::default();
+    }
+    let start = |(index, emitter)| {
+        let mut running = Running::new(emitter, hash(&[seed, index as u64]));
+        running.extend(surface, POINTS[0]);
+        running
+    };
+    let mut all: Vec<_> = emitters.iter().enumerate().map(start).collect();
+    let share = tolerance / (emitters.len() as f64).sqrt();
+    loop {
+        let total = total(&all);
+        let allowed = share * total.value.element_sum();
+        let mut settled = true;
+        for running in &mut all {
+            let error = running.estimate().standard_error.element_sum();
+            if error > allowed && running.points < POINTS[1] {
+                running.extend(surface, 2 * running.points);
+                settled = false;
+            }
+        }
+        if settled {
+            return total;
+        }
+    }
+}
+
+fn total(all: &[Running]) -> Estimate {
+    let add = |sum: Estimate, running: &Running| {
+        let one = running.estimate();
+        Estimate {
+            value: sum.value + one.value,
+            // Holds variances until the end: independent errors add in squares.
+            standard_error: sum.standard_error + one.standard_error * one.standard_error,
+        }
+    };
+    let sum = all.iter().fold(Estimate::default(), add);
+    Estimate {
+        standard_error: sum.standard_error.map(f64::sqrt),
+        ..sum
+    }
+}

@@ -1,0 +1,46 @@
+//! Substrate: Ashikhmin–Shirley's diffuse base under a glossy coat, equations (13), (14) corrected.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::fresnel::schlick_weight;
+use super::microfacet::Ggx;
+use super::sampling::Mixture;
+
+/// Ashikhmin–Shirley with the GGX distribution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Substrate {
+    /// Diffuse reflectance Rd.
+    pub diffuse: DVec3,
+    /// Specular reflectance at normal incidence Rs.
+    pub specular: DVec3,
+    /// Roughness.
+    pub ggx: Ggx,
+}
+
+/// 1 − (1 − c/2)⁵, expanded so that it does not cancel at grazing angles.
+fn transmitted(cos: f64) -> f64 {
+    let x = 0.5 * cos;
+    x * (5.0 + x * (-10.0 + x * (10.0 + x * (-5.0 + x))))
+}
+
+impl Substrate {
+    pub(super) fn eval(&self, wo: DVec3, wi: DVec3) -> DVec3 {
+        let (h, cos) = super::half_vector(wo, wi);
+        let base = 28.0 / (23.0 * PI) * transmitted(wi.z) * transmitted(wo.z);
+        let fresnel = self.specular + (DVec3::ONE - self.specular) * schlick_weight(cos);
+        let lobe = self.ggx.density(h) / (4.0 * cos * wi.z.max(wo.z));
+        self.diffuse * (DVec3::ONE - self.specular) * base + fresnel * lobe
+    }
+
+    pub(super) fn mixture(&self, wo: DVec3) -> Mixture {
+        let weight = schlick_weight(wo.z);
+        let specular = self.specular.max_element() * (1.0 - weight) + weight;
+        Mixture::two(
+            self.diffuse.max_element() * (1.0 - weight),
+            specular,
+            self.ggx,
+        )
+    }
+}

@@ -1,0 +1,199 @@
+//! A whole picture: camera rays, the nearest surface or luminaire, and the light that it sends back.
+
+use glam::DVec3;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+
+use super::area::{self, Emitter, Estimate};
+use super::lights::PointLights;
+use super::rays::{CameraRay, Geometry, camera_ray};
+use super::sampler::{Sequence, hash};
+use super::shading::Surface;
+use crate::scene::{Camera, Scene};
+use crate::{Error, HdrImage, Result};
+
+/// Which light is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Integrator {
+    /// Direct light without visibility: the exact sum over points, an estimate with its error over area lights.
+    #[default]
+    Direct,
+    /// Direct light with visibility.
+    Shadowed,
+    /// Full light transport.
+    Path,
+}
+
+/// How to compute a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Width and height, pixels.
+    pub size: [u32; 2],
+    /// Camera rays a pixel: 1 goes through the centre, more are spread over the pixel (box filter).
+    pub spp: u32,
+    /// Random shifts; the same seed gives the same picture on any number of threads.
+    pub seed: u64,
+    /// Which light.
+    pub integrator: Integrator,
+    /// Standard error at which a pixel's area lights are done, relative to what they reflect there.
+    pub tolerance: f64,
+    /// Shows a bar, if stderr is a terminal.
+    pub progress: bool,
+}
+
+impl Options {
+    /// As the scene says, with a tolerance of 5e-4.
+    #[must_use]
+    pub fn of_scene(scene: &Scene) -> Self {
+        Self {
+            size: scene.render.size,
+            spp: scene.render.samples,
+            seed: 0,
+            integrator: Integrator::Direct,
+            tolerance: 5e-4,
+            progress: false,
+        }
+    }
+}
+
+/// A picture with what is known of its error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rendered {
+    /// Scene-linear radiance.
+    pub image: HdrImage,
+    /// Standard error of every value: 0 where only points shine and spp = 1. With several rays a pixel, that of their
+    /// mean as if they were independent, which overstates it, because they are well spread.
+    pub standard_error: HdrImage,
+}
+
+/// Renders `scene` from `camera`, which stands still ([`Camera::at`] places it in time).
+///
+/// # Errors
+/// [`Error::Usage`] for an empty size, no samples, or an integrator that does not exist yet.
+pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rendered> {
+    check(options)?;
+    let world = World {
+        scene,
+        geometry: Geometry::new(scene),
+        points: PointLights::new(&scene.point_lights),
+        emitters: scene
+            .area_lights
+            .iter()
+            .map(|l| Emitter::new(l, &scene.textures))
+            .collect(),
+        tolerance: options.tolerance * f64::from(options.spp).sqrt(),
+    };
+    let [width, height] = options.size;
+    let bar = progress_bar(u64::from(height), options.progress);
+    let row = |y: u32| {
+        let row: Vec<_> = (0..width)
+            .map(|x| world.pixel(camera, options, x, y))
+            .collect();
+        bar.inc(1);
+        row
+    };
+    let pixels: Vec<Vec<Estimate>> = (0..height).into_par_iter().map(row).collect();
+    bar.finish_and_clear();
+    let picture = |channel: fn(&Estimate) -> DVec3| HdrImage {
+        width,
+        height,
+        pixels: pixels
+            .iter()
+            .flatten()
+            .map(|e| channel(e).as_vec3().to_array())
+            .collect(),
+    };
+    Ok(Rendered {
+        image: picture(|e| e.value),
+        standard_error: picture(|e| e.standard_error),
+    })
+}
+
+fn check(options: &Options) -> Result<()> {
+    let name = match options.integrator {
+        Integrator::Direct => None,
+        Integrator::Shadowed => Some("shadowed"),
+        Integrator::Path => Some("path"),
+    };
+    if let Some(name) = name {
+        let cause = format!("the integrator \"{name}\" is not supported yet");
+        return Err(Error::usage(cause, "use the integrator \"direct\""));
+    }
+    if options.size.contains(&0) || options.spp == 0 {
+        let cause = "a picture without pixels or without samples";
+        return Err(Error::usage(
+            cause,
+            "give a width, a height and an spp of at least 1",
+        ));
+    }
+    Ok(())
+}
+
+fn progress_bar(rows: u64, shown: bool) -> ProgressBar {
+    if !shown {
+        return ProgressBar::hidden();
+    }
+    // indicatif itself draws nothing where stderr is no terminal.
+    let style = ProgressStyle::with_template("reference {bar:40} {pos}/{len} rows, {eta} left");
+    let bar = ProgressBar::new(rows);
+    match style {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+/// What every ray needs.
+struct World<'a> {
+    scene: &'a Scene,
+    geometry: Geometry<'a>,
+    points: PointLights,
+    emitters: Vec<Emitter<'a>>,
+    tolerance: f64,
+}
+
+impl World<'_> {
+    fn pixel(&self, camera: &Camera, options: &Options, x: u32, y: u32) -> Estimate {
+        let seed = hash(&[options.seed, u64::from(x), u64::from(y)]);
+        let (left, top) = (f64::from(x), f64::from(y));
+        if options.spp == 1 {
+            let view = camera_ray(camera, options.size, left + 0.5, top + 0.5);
+            return self.radiance(&view, seed);
+        }
+        let jitter = Sequence::new(seed);
+        let sample = |index| {
+            let at = jitter.point(index);
+            let view = camera_ray(camera, options.size, left + at.x, top + at.y);
+            self.radiance(&view, hash(&[seed, u64::from(index)])).value
+        };
+        area::mean(&(0..options.spp).map(sample).collect::<Vec<_>>())
+    }
+
+    fn radiance(&self, view: &CameraRay, seed: u64) -> Estimate {
+        let hit = self.geometry.closest(view);
+        let beyond = hit.map_or(view.t_max, |hit| hit.t);
+        let luminaires = self
+            .emitters
+            .iter()
+            .filter_map(|emitter| emitter.seen_by(&view.ray));
+        let in_view = luminaires.filter(|(t, _)| (view.t_min..=beyond).contains(t));
+        if let Some((_, radiance)) = in_view.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            return Estimate {
+                value: radiance,
+                standard_error: DVec3::ZERO,
+            };
+        }
+        let Some(hit) = hit else {
+            let background = self.scene.render.background.map(f64::from);
+            return Estimate {
+                value: background.into(),
+                standard_error: DVec3::ZERO,
+            };
+        };
+        let surface = Surface::new(self.scene, &view.ray, &hit);
+        let area = area::reflected(&surface, &self.emitters, self.tolerance, seed);
+        Estimate {
+            value: area.value + self.points.reflected(&surface),
+            ..area
+        }
+    }
+}
