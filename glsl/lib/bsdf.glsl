@@ -8,7 +8,7 @@
 //   bool ANISOTROPIC      false: alpha_x is the alpha of both axes
 //   bool ROUGH_MATTE      false: sigma is 0
 //   bool LOBE_SUBSURFACE, LOBE_SHEEN, LOBE_CLEARCOAT, LOBE_METALLIC   false: that weight of principled is 0
-// Constants, because Mesa 22.3.6 runs what lies behind an untaken branch too: a lobe that no material has must not exist.
+// Constants, because Mesa 22.3.6 runs what lies behind an untaken branch too: a lobe that nobody has must not exist.
 // SwiftShader keeps even what specialisation constants rule out (27 ns per evaluation of any model, 3 with macros).
 #ifndef LIB_BSDF_GLSL
 #define LIB_BSDF_GLSL
@@ -48,7 +48,7 @@ vec3 bsdf_eval_cos(Bsdf b, vec3 wi) {
     return principled_eval_cos(b.principled, wi);
 }
 
-// f(wo, wi), for tests and tables: all models have their quotients with cosθi in them, so dividing it out costs one ulp.
+// f(wo, wi), for tests and tables: every model's quotients contain cosθi, so dividing it out costs one ulp.
 vec3 bsdf_eval(Bsdf b, vec3 wi) {
     return bsdf_eval_cos(b, wi) / max(wi.z, MIN_COSINE);
 }
