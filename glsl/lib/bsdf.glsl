@@ -1,14 +1,15 @@
 // The five BSDFs behind one interface: set up once per pixel, evaluate for many lights.
 //
 // Directions are unit vectors in the local frame: z the normal, x the tangent; wo to the viewer, wi to the light. f is
-// the BRDF in sr⁻¹, zero unless both lie above the surface. `docs` of each equation: the model's own file.
+// the BRDF in sr⁻¹, zero unless both lie above the surface. Each model's file names its paper.
 //
-// The including shader declares these as specialisation constants, before this line:
+// The including shader defines these before this line, as specialisation constants or macros:
 //   int MODEL             MODEL_MATTE … MODEL_PRINCIPLED
 //   bool ANISOTROPIC      false: alpha_x is the alpha of both axes
 //   bool ROUGH_MATTE      false: sigma is 0
 //   bool LOBE_SUBSURFACE, LOBE_SHEEN, LOBE_CLEARCOAT, LOBE_METALLIC   false: that weight of principled is 0
-// Constants, because Mesa 22.3.6 runs what lies behind an untaken branch too: a lobe that no material has must not exist.
+// Constants, because Mesa 22.3.6 runs what lies behind an untaken branch too: a lobe that nobody has must not exist.
+// SwiftShader keeps even what specialisation constants rule out (27 ns per evaluation of any model, 3 with macros).
 #ifndef LIB_BSDF_GLSL
 #define LIB_BSDF_GLSL
 
@@ -47,7 +48,7 @@ vec3 bsdf_eval_cos(Bsdf b, vec3 wi) {
     return principled_eval_cos(b.principled, wi);
 }
 
-// f(wo, wi), for tests and tables: all models have their quotients with cosθi in them, so dividing it out costs one ulp.
+// f(wo, wi), for tests and tables: every model's quotients contain cosθi, so dividing it out costs one ulp.
 vec3 bsdf_eval(Bsdf b, vec3 wi) {
     return bsdf_eval_cos(b, wi) / max(wi.z, MIN_COSINE);
 }

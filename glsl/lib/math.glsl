@@ -18,7 +18,8 @@ vec3 sqr(vec3 x) { return x * x; }
 // Not pow(): Vulkan grants it the errors of exp2 and log2 together, and software drivers take both from polynomials.
 float pow5(float x) { return sqr(sqr(x)) * x; }
 
-float safe_sqrt(float x) { return sqrt(max(x, 0.0)); }
+// 1 − (1 − x)⁵ in [0, 1], expanded: the subtraction would lose x where a direction grazes.
+float schlick_complement(float x) { return x * (5.0 - x * (10.0 - x * (10.0 - x * (5.0 - x)))); }
 
 // Rec.709, of scene-linear RGB.
 float luminance(vec3 color) { return dot(color, vec3(0.212671, 0.715160, 0.072169)); }

@@ -1,4 +1,5 @@
-// Lambert under an uncoupled dielectric microfacet layer: diffuse/π + specular · D V F.
+// Lambert and an uncoupled dielectric microfacet layer, diffuse/π + specular · D V F (Walter 2007, Heitz 2014):
+// pbrt-v3's plastic with Fresnel from air to eta, which its own material has the wrong way round.
 #ifndef LIB_BSDF_PLASTIC_GLSL
 #define LIB_BSDF_PLASTIC_GLSL
 

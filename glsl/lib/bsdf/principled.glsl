@@ -63,7 +63,7 @@ Principled principled_setup(BsdfParameters p, vec3 wo) {
 
 // Fss (1/(cosθi + cosθo) − ½) + ½: Hanrahan and Krueger's single scattering flattened to a diffuse shape.
 float principled_subsurface(Principled m, float cos_i, float fresnel_i, float fss90) {
-    float fss = (1.0 + (fss90 - 1.0) * fresnel_i) * (1.0 + (fss90 - 1.0) * m.fresnel_o);
+    float fss = (schlick_complement(cos_i) + fss90 * fresnel_i) * (schlick_complement(m.cos_o) + fss90 * m.fresnel_o);
     return fss / max(cos_i + m.cos_o, TINY) + 0.5 * (1.0 - fss);
 }
 

@@ -15,17 +15,11 @@ struct Substrate {
     Ggx ggx;
 };
 
-// 1 − (1 − x)⁵ at x = c/2, expanded: the subtraction would lose c at grazing incidence.
-float substrate_transmission(float c) {
-    float x = 0.5 * c;
-    return x * (5.0 - x * (10.0 - x * (10.0 - x * (5.0 - x))));
-}
-
 Substrate substrate_setup(BsdfParameters p, vec3 wo) {
     Substrate m;
     m.ggx = ggx_setup(p.alpha_x, p.alpha_y, wo);
     float facing = faces_viewer(wo);
-    float diffuse = facing * (28.0 / 23.0) * INV_PI * substrate_transmission(wo.z);
+    float diffuse = facing * (28.0 / 23.0) * INV_PI * schlick_complement(0.5 * wo.z);
     m.base = diffuse * p.color * (1.0 - p.specular);
     m.coat = (facing * 0.25 * m.ggx.norm) * p.specular;
     m.white = (facing * 0.25 * m.ggx.norm) * (1.0 - p.specular);
@@ -41,7 +35,7 @@ vec3 substrate_eval_cos(Substrate m, vec3 wi) {
     float cosine = 0.5 * sqrt(h.length2);
     float lobe = ggx_distribution(m.ggx, h) * min(cos_i * m.inv_cos_o, 1.0) / max(cosine, MIN_COSINE);
     vec3 fresnel = m.coat + m.white * schlick_weight(m.wo, wi, cosine);
-    return m.base * (cos_i * substrate_transmission(cos_i)) + fresnel * lobe;
+    return m.base * (cos_i * schlick_complement(0.5 * cos_i)) + fresnel * lobe;
 }
 
 #endif
