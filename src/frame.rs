@@ -86,6 +86,7 @@ pub struct Frame {
     timestamps: Timestamps,
     pass_names: Vec<&'static str>,
     samples: u32,
+    slices: u32,
 }
 
 impl Frame {
@@ -122,6 +123,7 @@ impl Frame {
             timestamps: Timestamps::new(device, pass_names.len() as u32 + 1)?,
             pass_names,
             samples: 0,
+            slices: 0,
             targets,
             device: device.clone(),
             scene: scene.clone(),
@@ -254,6 +256,7 @@ impl Frame {
         constants.cluster_capacity = self.lists.capacity.clusters;
         constants.list_capacity = self.lists.capacity.texels;
         constants.background = self.settings.background;
+        self.slices = constants.slice_count;
         self.constants.write(&[constants])
     }
 
@@ -350,6 +353,13 @@ impl Frame {
     #[must_use]
     pub fn cluster_targets(&self) -> (&Targets, &ClusterTargets) {
         (&self.targets, &self.lists)
+    }
+
+    /// Tiles across, tiles down, depth slices of the picture last rendered.
+    #[must_use]
+    pub fn grid(&self) -> [u32; 3] {
+        let [x, y] = tiles_of(self.settings.size);
+        [x, y, self.slices]
     }
 
     fn image(&self, pixels: Vec<[f32; 3]>) -> HdrImage {

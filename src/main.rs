@@ -1,2 +1,7 @@
-//! The command `amas`: parses the command line and hands over to the library.
-fn main() {}
+//! The command `amas`: hands over to the library.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    amas::app::main()
+}

@@ -1,1 +1,69 @@
-//! The subcommands.
+//! The subcommands: the only module that knows the command line, the environment and file names.
+
+mod args;
+mod bench;
+mod compare;
+mod default_scene;
+mod info;
+mod measure;
+mod outputs;
+mod reference;
+mod render;
+mod report;
+
+use crate::error::{Error, Result};
+use crate::scene::{self, Camera, Scene};
+use args::{Args, Command, SceneOptions};
+use clap::Parser;
+use std::process::ExitCode;
+
+/// Parses the command line and runs it; errors go to stderr.
+#[must_use]
+pub fn main() -> ExitCode {
+    let args = Args::parse();
+    let result = match args.command.unwrap_or_default() {
+        Command::Render(options) => render::run(&options),
+        Command::Reference(options) => reference::run(&options),
+        Command::Compare(options) => compare::run(&options),
+        Command::Bench(options) => bench::run(&options),
+        Command::Info(options) => info::run(&options),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("amas: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+/// Loads the scene that the options name, or the embedded one, and says what loading repaired.
+fn load_scene(options: &SceneOptions) -> Result<Scene> {
+    let mut overrides = options.set.clone();
+    if let Some([width, height]) = options.size {
+        overrides.push(("size".into(), format!("[{width}, {height}]")));
+    }
+    let scene = match &options.scene {
+        Some(path) => scene::load(path, &overrides)?,
+        None => default_scene::load(&overrides)?,
+    };
+    for warning in &scene.warnings {
+        eprintln!("amas: warning: {warning}");
+    }
+    Ok(scene)
+}
+
+/// The camera of that name, or the first.
+fn camera<'a>(scene: &'a Scene, name: Option<&str>) -> Result<&'a Camera> {
+    let names = || scene.cameras.iter().map(|camera| camera.name.as_str()).collect::<Vec<_>>().join(", ");
+    let found = match name {
+        Some(name) => scene.cameras.iter().find(|camera| camera.name == name),
+        None => scene.cameras.first(),
+    };
+    found.ok_or_else(|| {
+        Error::usage(
+            format!("the scene has no camera {}", name.map_or_else(String::new, |name| format!("{name:?}"))),
+            format!("choose one of: {}", names()),
+        )
+    })
+}

@@ -1,0 +1,197 @@
+//! The command line.
+
+use clap::{Args as ClapArgs, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// A clustered-forward renderer for very many lights, with every picture's error known.
+///
+/// Without a subcommand, renders the embedded default scene to amas.png.
+#[derive(Debug, Parser)]
+#[command(name = "amas", version, after_help = "Example:\n  amas render scene.toml -o picture.png -o picture.exr")]
+pub(super) struct Args {
+    #[command(subcommand)]
+    pub(super) command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Render a scene file to pictures, offscreen
+    #[command(after_help = "Examples:
+  amas render
+  amas render scene.toml -o picture.png -o picture.exr --report report.json
+  amas render scene.toml --frames 0..60 -o frame_%04d.png
+  amas render scene.toml --set samples=16 --aov normal=normal.exr -o picture.png")]
+    Render(RenderOptions),
+    /// Compute a picture in double precision on the CPU
+    #[command(after_help = "Example:\n  amas reference scene.toml -o reference.exr --spp 4 --error error.exr")]
+    Reference(ReferenceOptions),
+    /// Error figures of picture A against picture B, the reference
+    #[command(after_help = "Example:\n  amas compare picture.exr reference.exr --mask mask.png --json")]
+    Compare(CompareOptions),
+    /// Time the frame, pass by pass
+    #[command(after_help = "Example:\n  amas bench scenes/light_grid.toml --size 640x360 --frames 20 --json bench.json")]
+    Bench(BenchOptions),
+    /// List devices, and what each lacks
+    #[command(after_help = "Example:\n  amas info --json")]
+    Info(InfoOptions),
+}
+
+impl Default for Command {
+    fn default() -> Self {
+        Self::Render(RenderOptions {
+            scene: SceneOptions { scene: None, size: None, set: Vec::new() },
+            device: DeviceOptions {
+                device: std::env::var("AMAS_DEVICE").ok(),
+                validate: false,
+            },
+            output: Vec::new(),
+            camera: None,
+            frames: None,
+            report: None,
+            aov: Vec::new(),
+        })
+    }
+}
+
+#[derive(Clone, Debug, ClapArgs)]
+pub(super) struct DeviceOptions {
+    /// Device by index or part of its name
+    #[arg(long, value_name = "NAME|INDEX", env = "AMAS_DEVICE")]
+    pub(super) device: Option<String>,
+    /// Turn on the validation layers with synchronisation checks, and fail on a message
+    #[arg(long)]
+    pub(super) validate: bool,
+}
+
+#[derive(Clone, Debug, ClapArgs)]
+pub(super) struct SceneOptions {
+    /// Scene file [default: the embedded scene]
+    pub(super) scene: Option<PathBuf>,
+    /// Picture size in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// Override a key of [render], such as render.samples=16
+    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_pair)]
+    pub(super) set: Vec<(String, String)>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct RenderOptions {
+    #[command(flatten)]
+    pub(super) scene: SceneOptions,
+    #[command(flatten)]
+    pub(super) device: DeviceOptions,
+    /// Picture file, several times: .png (8-bit sRGB), .exr or .pfm (scene-linear) [default: amas.png]
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Vec<PathBuf>,
+    /// Camera by name [default: the first]
+    #[arg(long, value_name = "NAME")]
+    pub(super) camera: Option<String>,
+    /// Frames A up to, not including, B along the camera's path, 30 a second; %04d in FILE is the frame
+    #[arg(long, value_name = "A..B", value_parser = parse_range)]
+    pub(super) frames: Option<std::ops::Range<u32>>,
+    /// Report as JSON
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) report: Option<PathBuf>,
+    /// Output variable, several times: position, normal, material, light_count, direct or indirect
+    #[arg(long, value_name = "NAME=FILE.exr", value_parser = parse_pair)]
+    pub(super) aov: Vec<(String, String)>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct ReferenceOptions {
+    #[command(flatten)]
+    pub(super) scene: SceneOptions,
+    /// Picture file: .exr or .pfm
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: PathBuf,
+    /// Rays a pixel [default: the scene's samples]; 1 goes through its centre
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) spp: Option<u32>,
+    /// Which light
+    #[arg(long, value_enum, default_value = "direct")]
+    pub(super) integrator: IntegratorName,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) seed: u64,
+    /// Camera by name [default: the first]
+    #[arg(long, value_name = "NAME")]
+    pub(super) camera: Option<String>,
+    /// Standard error of every value, as a picture
+    #[arg(long, value_name = "FILE.exr")]
+    pub(super) error: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(super) enum IntegratorName {
+    /// Unshadowed direct light
+    Direct,
+    /// Direct light with visibility
+    Shadowed,
+    /// Full light transport
+    Path,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct CompareOptions {
+    /// Picture
+    pub(super) a: PathBuf,
+    /// Reference
+    pub(super) b: PathBuf,
+    /// Compare only where this picture is white
+    #[arg(long, value_name = "M.png")]
+    pub(super) mask: Option<PathBuf>,
+    /// Compare means of N × N pixels
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) block: u32,
+    /// Print JSON
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct BenchOptions {
+    /// Scene files [default: the embedded scene]
+    pub(super) scenes: Vec<PathBuf>,
+    /// Picture size in pixels [default: the scene's]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// Override a key of [render]
+    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_pair)]
+    pub(super) set: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(super) device: DeviceOptions,
+    /// Frames measured
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) frames: u32,
+    /// Frames rendered first and not measured
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    pub(super) warmup: u32,
+    /// Figures as JSON
+    #[arg(long, value_name = "FILE")]
+    pub(super) json: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct InfoOptions {
+    /// Print JSON
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    sides.ok_or_else(|| "write it as WIDTHxHEIGHT, such as 640x360".into())
+}
+
+fn parse_pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.is_empty() && !value.is_empty() => Ok((key.into(), value.into())),
+        _ => Err("write it as NAME=VALUE".into()),
+    }
+}
+
+fn parse_range(text: &str) -> Result<std::ops::Range<u32>, String> {
+    let ends = text.split_once("..").and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
+    ends.filter(|range| !range.is_empty()).ok_or_else(|| "write it as A..B with A < B, such as 0..60".into())
+}

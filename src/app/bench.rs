@@ -1,0 +1,112 @@
+//! `amas bench`: frame timing.
+
+use super::args::{BenchOptions, SceneOptions};
+use super::measure::Figure;
+use super::outputs::check_folder;
+use super::report::{self, Clusters, Pairs, Pass};
+use super::{camera, load_scene};
+use crate::error::Result;
+use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
+use crate::gpu::{Device, DeviceInfo, Options};
+use crate::gpu_scene::GpuScene;
+use indicatif::ProgressBar;
+use serde::Serialize;
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Frames submitted pass by pass, for the passes' CPU time.
+const SPLIT_FRAMES: u32 = 5;
+
+#[derive(Serialize)]
+struct Figures<'a> {
+    schema: u32,
+    device: &'a DeviceInfo,
+    /// Version of amas.
+    version: &'static str,
+    /// Commit it was built from; `null` outside a checkout.
+    commit: Option<&'static str>,
+    points: Vec<Point>,
+}
+
+#[derive(Serialize)]
+struct Point {
+    scene: String,
+    size: [u32; 2],
+    frame_cpu_ms: Option<Figure>,
+    frame_wall_ms: Option<Figure>,
+    passes: Vec<Pass>,
+    clusters: Clusters,
+    pairs: Pairs,
+}
+
+pub(super) fn run(options: &BenchOptions) -> Result<()> {
+    options.json.iter().try_for_each(|path| check_folder(path))?;
+    let device =
+        Device::open(&Options { device: options.device.device.clone(), validate: options.device.validate })?;
+    let scenes: Vec<Option<PathBuf>> = match options.scenes.as_slice() {
+        [] => vec![None],
+        scenes => scenes.iter().cloned().map(Some).collect(),
+    };
+    let points = scenes.into_iter().map(|scene| point(&device, options, scene)).collect::<Result<Vec<_>>>()?;
+    if let Some(path) = &options.json {
+        let figures = Figures {
+            schema: 1,
+            device: device.info(),
+            version: env!("CARGO_PKG_VERSION"),
+            commit: option_env!("AMAS_COMMIT"),
+            points,
+        };
+        report::save(path, &figures)?;
+    }
+    device.require_silence()
+}
+
+fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) -> Result<Point> {
+    let name = path.as_ref().map_or_else(|| "default".into(), |path| path.display().to_string());
+    let scene = load_scene(&SceneOptions { scene: path, size: options.size, set: options.set.clone() })?;
+    let camera = camera(&scene, None)?;
+    let gpu_scene = Arc::new(GpuScene::new(device, &scene)?);
+    let settings = FrameSettings::new(&scene.render, camera);
+    let mut frame = Frame::new(device, &gpu_scene, settings)?;
+    let inputs = FrameInputs { camera, samples: scene.render.samples, exposure: scene.render.exposure, split: false };
+    let (whole, all) = measure(&mut frame, &inputs, options)?;
+    report::warn_of_overflow(&frame.counters(), settings.max_lights_per_cluster);
+    let [width, height] = settings.size;
+    let passes = report::passes(&all);
+    report::print_table(&format!("{name}, {width}x{height}, {}", device.info().name), &passes, &whole);
+    let pairs = report::pairs(frame.pairs()?, &passes, device.info(), settings.size);
+    println!("{pairs}");
+    Ok(Point {
+        scene: name,
+        size: settings.size,
+        frame_cpu_ms: report::figure(&whole, |t| Some(t.cpu_ms)),
+        frame_wall_ms: report::figure(&whole, |t| Some(t.wall_ms)),
+        clusters: report::clusters(&frame),
+        pairs,
+        passes,
+    })
+}
+
+/// Timings of the whole frames, and of these and a few that are split by pass.
+fn measure(
+    frame: &mut Frame,
+    inputs: &FrameInputs<'_>,
+    options: &BenchOptions,
+) -> Result<(Vec<Timings>, Vec<Timings>)> {
+    let total = options.warmup + options.frames + SPLIT_FRAMES;
+    let bar = if std::io::stderr().is_terminal() { ProgressBar::new(total.into()) } else { ProgressBar::hidden() };
+    let mut render = |count: u32, split: bool| -> Result<Vec<Timings>> {
+        (0..count)
+            .map(|_| {
+                bar.inc(1);
+                frame.render(&FrameInputs { split, ..inputs.clone() })
+            })
+            .collect()
+    };
+    render(options.warmup, false)?;
+    let whole = render(options.frames, false)?;
+    let split = render(SPLIT_FRAMES, true)?;
+    bar.finish_and_clear();
+    Ok((whole.clone(), [whole, split].concat()))
+}

@@ -1,0 +1,8 @@
+//! `amas compare`: error figures between two pictures.
+
+use super::args::CompareOptions;
+use crate::error::Result;
+
+pub(super) fn run(_: &CompareOptions) -> Result<()> {
+    Ok(())
+}

@@ -1,0 +1,32 @@
+//! `amas reference`: the double-precision oracle.
+
+use super::args::{IntegratorName, ReferenceOptions};
+use super::outputs::check_linear;
+use super::{camera, load_scene};
+use crate::error::Result;
+use crate::reference::{Integrator, Options, render};
+
+pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
+    check_linear(&options.output)?;
+    options.error.iter().try_for_each(|path| check_linear(path))?;
+    let scene = load_scene(&options.scene)?;
+    let camera = camera(&scene, options.camera.as_deref())?;
+    let defaults = Options::of_scene(&scene);
+    let rendered = render(
+        &scene,
+        camera,
+        &Options {
+            spp: options.spp.unwrap_or(defaults.spp),
+            seed: options.seed,
+            integrator: match options.integrator {
+                IntegratorName::Direct => Integrator::Direct,
+                IntegratorName::Shadowed => Integrator::Shadowed,
+                IntegratorName::Path => Integrator::Path,
+            },
+            progress: true,
+            ..defaults
+        },
+    )?;
+    rendered.image.save(&options.output)?;
+    options.error.iter().try_for_each(|path| rendered.standard_error.save(path))
+}

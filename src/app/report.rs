@@ -1,0 +1,225 @@
+//! The report and the pass table.
+
+use super::measure::{Figure, peak_host_memory};
+use crate::error::Result;
+use crate::frame::{Frame, Timings};
+use crate::gpu::{Device, DeviceInfo};
+use crate::image::write_atomically;
+use crate::passes::pairs::PairCount;
+use crate::scene::Scene;
+use crate::shared::Counters;
+use serde::Serialize;
+use std::io::Write;
+use std::path::Path;
+use std::sync::Arc;
+
+const MEGABYTE: f64 = 1024.0 * 1024.0;
+
+/// Time of one pass.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Pass {
+    name: &'static str,
+    /// `null` on a device without timestamps.
+    gpu_ms: Option<Figure>,
+    /// CPU time of the process; subpasses share theirs as they share device time.
+    cpu_ms: Option<f64>,
+}
+
+/// What the cluster pass counted.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Clusters {
+    /// Tiles across, tiles down, depth slices.
+    grid: [u32; 3],
+    occupied: u32,
+    list_entries: u32,
+    longest_list: u32,
+    overflowed: u32,
+    /// Lights beyond the lists' cap, summed over clusters; they are missing from the picture.
+    pub(super) dropped_lights: u32,
+    folded_lights: u32,
+    max_folded_error: f64,
+}
+
+/// Pairs of pixel and light.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Pairs {
+    evaluated: u64,
+    useful: u64,
+    per_pixel: f64,
+    /// Shading time over evaluated pairs: CPU time on a CPU device, else device time.
+    ns_per_pair: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct SceneSize {
+    triangles: usize,
+    materials: usize,
+    point_lights: usize,
+    area_lights: usize,
+}
+
+#[derive(Serialize)]
+struct ImageSize {
+    width: u32,
+    height: u32,
+}
+
+#[derive(Serialize)]
+struct FrameTime {
+    wall_ms: Option<Figure>,
+    cpu_ms: Option<Figure>,
+}
+
+#[derive(Serialize)]
+struct ErrorEstimate {
+    /// 0 where every light that reaches a pixel is evaluated; `null` where lists overflowed.
+    light_relative: Option<f64>,
+    indirect_relative: f64,
+}
+
+#[derive(Serialize)]
+struct PeakMemory {
+    host_mb: Option<f64>,
+    device_mb: f64,
+}
+
+/// Everything that `--report` writes.
+#[derive(Serialize)]
+pub(super) struct Report<'a> {
+    schema: u32,
+    device: &'a DeviceInfo,
+    scene: SceneSize,
+    image: ImageSize,
+    passes: Vec<Pass>,
+    clusters: Clusters,
+    frame: FrameTime,
+    pairs: Pairs,
+    error_estimate: ErrorEstimate,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    validation_messages: Option<usize>,
+    peak_memory: PeakMemory,
+}
+
+impl<'a> Report<'a> {
+    /// The report of frames that took `timings`; pairs are those of the last.
+    pub(super) fn new(device: &'a Arc<Device>, scene: &Scene, frame: &Frame, timings: &[Timings]) -> Result<Self> {
+        let passes = passes(timings);
+        let clusters = clusters(frame);
+        let [width, height] = scene.render.size;
+        Ok(Self {
+            schema: 1,
+            device: device.info(),
+            scene: SceneSize {
+                triangles: scene.meshes.iter().map(|mesh| mesh.triangles.len()).sum(),
+                materials: scene.materials.len(),
+                point_lights: scene.point_lights.len(),
+                area_lights: scene.area_lights.len(),
+            },
+            image: ImageSize { width, height },
+            pairs: pairs(frame.pairs()?, &passes, device.info(), [width, height]),
+            passes,
+            frame: FrameTime {
+                wall_ms: figure(timings, |t| Some(t.wall_ms)),
+                cpu_ms: figure(timings, |t| Some(t.cpu_ms)),
+            },
+            error_estimate: ErrorEstimate {
+                light_relative: (clusters.dropped_lights == 0).then_some(0.0),
+                indirect_relative: 0.0,
+            },
+            clusters,
+            validation_messages: device.validation_messages().map(|messages| messages.len()),
+            peak_memory: PeakMemory {
+                host_mb: peak_host_memory().map(|bytes| bytes as f64 / MEGABYTE),
+                device_mb: device.peak_memory() as f64 / MEGABYTE,
+            },
+        })
+    }
+}
+
+/// Passes in frame order, over several frames.
+pub(super) fn passes(timings: &[Timings]) -> Vec<Pass> {
+    let names = timings.first().map_or(&[][..], |timings| &timings.passes);
+    (0..names.len())
+        .map(|i| Pass {
+            name: names[i].name,
+            gpu_ms: figure(timings, |t| t.passes[i].gpu_ms),
+            cpu_ms: figure(timings, |t| t.passes[i].cpu_ms).map(|figure| figure.median),
+        })
+        .collect()
+}
+
+/// A figure over frames.
+pub(super) fn figure(timings: &[Timings], value: impl Fn(&Timings) -> Option<f64>) -> Option<Figure> {
+    Figure::of(&timings.iter().filter_map(value).collect::<Vec<_>>())
+}
+
+/// What the last frame's cluster pass counted.
+pub(super) fn clusters(frame: &Frame) -> Clusters {
+    let Counters { clusters, entries, longest, overflowed, dropped, .. } = frame.counters();
+    Clusters {
+        grid: frame.grid(),
+        occupied: clusters,
+        list_entries: entries,
+        longest_list: longest,
+        overflowed,
+        dropped_lights: dropped,
+        folded_lights: 0,
+        max_folded_error: 0.0,
+    }
+}
+
+/// Pairs, and what one cost.
+pub(super) fn pairs(count: PairCount, passes: &[Pass], device: &DeviceInfo, [width, height]: [u32; 2]) -> Pairs {
+    let time = |pass: &Pass| if device.kind == "cpu" { pass.cpu_ms } else { pass.gpu_ms.map(|ms| ms.median) };
+    let shading = passes.iter().filter(|pass| matches!(pass.name, "direct" | "indirect"));
+    let ms: Option<f64> = shading.map(time).sum();
+    Pairs {
+        evaluated: count.evaluated,
+        useful: count.useful,
+        per_pixel: count.evaluated as f64 / (f64::from(width) * f64::from(height)),
+        ns_per_pair: ms.filter(|_| count.evaluated > 0).map(|ms| ms * 1e6 / count.evaluated as f64),
+    }
+}
+
+impl std::fmt::Display for Pairs {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let ratio = self.evaluated as f64 / self.useful.max(1) as f64;
+        write!(f, "{:.1} pairs a pixel, {ratio:.2} evaluated per useful one", self.per_pixel)?;
+        self.ns_per_pair.map_or(Ok(()), |ns| write!(f, ", {ns:.2} ns a pair"))
+    }
+}
+
+/// Writes JSON, all or nothing.
+pub(super) fn save(path: &Path, value: &impl Serialize) -> Result<()> {
+    write_atomically(path, |file| {
+        serde_json::to_writer_pretty(&mut *file, value).map_err(std::io::Error::other)?;
+        file.write_all(b"\n")
+    })
+}
+
+/// The table that `render` and `bench` print.
+pub(super) fn print_table(title: &str, passes: &[Pass], frames: &[Timings]) {
+    let ms = |figure: Option<Figure>| match figure {
+        Some(figure) if figure.n > 1 => format!("{:9.2} ± {:.2}", figure.median, figure.mad),
+        Some(figure) => format!("{:9.2}", figure.median),
+        None => format!("{:>9}", "-"),
+    };
+    println!("{title}");
+    println!("{:<10} {:>9}       {:>9}", "pass", "device ms", "CPU ms");
+    for pass in passes {
+        let cpu = pass.cpu_ms.map_or_else(|| format!("{:>9}", "-"), |ms| format!("{ms:9.2}"));
+        println!("{:<10} {:<16}{cpu}", pass.name, ms(pass.gpu_ms));
+    }
+    println!("{:<10} {:<16}{}", "frame", format!("{} wall", ms(figure(frames, |t| Some(t.wall_ms)))), ms(figure(frames, |t| Some(t.cpu_ms))));
+}
+
+/// Says what a full list cost the picture.
+pub(super) fn warn_of_overflow(counters: &Counters, cap: u32) {
+    if counters.dropped > 0 {
+        eprintln!(
+            "amas: warning: {} of {} clusters are reached by more than {cap} lights (at most {}); {} list entries were \
+             left out of the picture\n  remedy: raise render.max_lights_per_cluster (up to 2048), or shorten the lights' ranges",
+            counters.overflowed, counters.clusters, counters.longest, counters.dropped
+        );
+    }
+}
