@@ -7,7 +7,11 @@ use std::path::PathBuf;
 ///
 /// Without a subcommand, renders the embedded default scene to amas.png.
 #[derive(Debug, Parser)]
-#[command(name = "amas", version, after_help = "Example:\n  amas render scene.toml -o picture.png -o picture.exr")]
+#[command(
+    name = "amas",
+    version,
+    after_help = "Example:\n  amas render scene.toml -o picture.png -o picture.exr"
+)]
 pub(super) struct Args {
     #[command(subcommand)]
     pub(super) command: Option<Command>,
@@ -23,13 +27,19 @@ pub(super) enum Command {
   amas render scene.toml --set samples=16 --aov normal=normal.exr -o picture.png")]
     Render(RenderOptions),
     /// Compute a picture in double precision on the CPU
-    #[command(after_help = "Example:\n  amas reference scene.toml -o reference.exr --spp 4 --error error.exr")]
+    #[command(
+        after_help = "Example:\n  amas reference scene.toml -o reference.exr --spp 4 --error error.exr"
+    )]
     Reference(ReferenceOptions),
     /// Error figures of picture A against picture B, the reference
-    #[command(after_help = "Example:\n  amas compare picture.exr reference.exr --mask mask.png --json")]
+    #[command(
+        after_help = "Example:\n  amas compare picture.exr reference.exr --mask mask.png --json"
+    )]
     Compare(CompareOptions),
     /// Time the frame, pass by pass
-    #[command(after_help = "Example:\n  amas bench scenes/light_grid.toml --size 640x360 --frames 20 --json bench.json")]
+    #[command(
+        after_help = "Example:\n  amas bench scenes/light_grid.toml --size 640x360 --frames 20 --json bench.json"
+    )]
     Bench(BenchOptions),
     /// List devices, and what each lacks
     #[command(after_help = "Example:\n  amas info --json")]
@@ -39,7 +49,11 @@ pub(super) enum Command {
 impl Default for Command {
     fn default() -> Self {
         Self::Render(RenderOptions {
-            scene: SceneOptions { scene: None, size: None, set: Vec::new() },
+            scene: SceneOptions {
+                scene: None,
+                size: None,
+                set: Vec::new(),
+            },
             device: DeviceOptions {
                 device: std::env::var("AMAS_DEVICE").ok(),
                 validate: false,
@@ -180,18 +194,25 @@ pub(super) struct InfoOptions {
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    let sides = text
+        .split_once(['x', 'X'])
+        .and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     sides.ok_or_else(|| "write it as WIDTHxHEIGHT, such as 640x360".into())
 }
 
 fn parse_pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
-        Some((key, value)) if !key.is_empty() && !value.is_empty() => Ok((key.into(), value.into())),
+        Some((key, value)) if !key.is_empty() && !value.is_empty() => {
+            Ok((key.into(), value.into()))
+        }
         _ => Err("write it as NAME=VALUE".into()),
     }
 }
 
 fn parse_range(text: &str) -> Result<std::ops::Range<u32>, String> {
-    let ends = text.split_once("..").and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
-    ends.filter(|range| !range.is_empty()).ok_or_else(|| "write it as A..B with A < B, such as 0..60".into())
+    let ends = text
+        .split_once("..")
+        .and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
+    ends.filter(|range| !range.is_empty())
+        .ok_or_else(|| "write it as A..B with A < B, such as 0..60".into())
 }

@@ -18,12 +18,19 @@ pub(super) fn run(options: &InfoOptions) -> Result<()> {
     if options.json {
         let entries: Vec<_> = devices
             .iter()
-            .map(|info| Entry { info, usable: info.report.missing().is_none(), needs: &info.report.0 })
+            .map(|info| Entry {
+                info,
+                usable: info.report.missing().is_none(),
+                needs: &info.report.0,
+            })
             .collect();
         let json = serde_json::json!({ "schema": 1, "devices": entries });
         println!("{json:#}");
     } else {
-        devices.iter().enumerate().for_each(|(index, info)| print(index, info));
+        devices
+            .iter()
+            .enumerate()
+            .for_each(|(index, info)| print(index, info));
     }
     match devices.iter().any(|info| info.report.missing().is_none()) {
         true => Ok(()),
@@ -35,9 +42,15 @@ pub(super) fn run(options: &InfoOptions) -> Result<()> {
 }
 
 fn print(index: usize, info: &DeviceInfo) {
-    println!("{index}: {} ({}), {}, Vulkan {}", info.name, info.kind, info.driver, info.api);
+    println!(
+        "{index}: {} ({}), {}, Vulkan {}",
+        info.name, info.kind, info.driver, info.api
+    );
     for check in &info.report.0 {
         let mark = if check.ok { "yes" } else { "NO " };
-        println!("   {mark}  {:<44} has {:<12} for {}", check.name, check.found, check.why);
+        println!(
+            "   {mark}  {:<44} has {:<12} for {}",
+            check.name, check.found, check.why
+        );
     }
 }

@@ -8,7 +8,10 @@ use crate::reference::{Integrator, Options, render};
 
 pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
     check_linear(&options.output)?;
-    options.error.iter().try_for_each(|path| check_linear(path))?;
+    options
+        .error
+        .iter()
+        .try_for_each(|path| check_linear(path))?;
     let scene = load_scene(&options.scene)?;
     let camera = camera(&scene, options.camera.as_deref())?;
     let defaults = Options::of_scene(&scene);
@@ -28,5 +31,8 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
         },
     )?;
     rendered.image.save(&options.output)?;
-    options.error.iter().try_for_each(|path| rendered.standard_error.save(path))
+    options
+        .error
+        .iter()
+        .try_for_each(|path| rendered.standard_error.save(path))
 }

@@ -102,7 +102,12 @@ pub(super) struct Report<'a> {
 
 impl<'a> Report<'a> {
     /// The report of frames that took `timings`; pairs are those of the last.
-    pub(super) fn new(device: &'a Arc<Device>, scene: &Scene, frame: &Frame, timings: &[Timings]) -> Result<Self> {
+    pub(super) fn new(
+        device: &'a Arc<Device>,
+        scene: &Scene,
+        frame: &Frame,
+        timings: &[Timings],
+    ) -> Result<Self> {
         let passes = passes(timings);
         let clusters = clusters(frame);
         let [width, height] = scene.render.size;
@@ -149,13 +154,23 @@ pub(super) fn passes(timings: &[Timings]) -> Vec<Pass> {
 }
 
 /// A figure over frames.
-pub(super) fn figure(timings: &[Timings], value: impl Fn(&Timings) -> Option<f64>) -> Option<Figure> {
+pub(super) fn figure(
+    timings: &[Timings],
+    value: impl Fn(&Timings) -> Option<f64>,
+) -> Option<Figure> {
     Figure::of(&timings.iter().filter_map(value).collect::<Vec<_>>())
 }
 
 /// What the last frame's cluster pass counted.
 pub(super) fn clusters(frame: &Frame) -> Clusters {
-    let Counters { clusters, entries, longest, overflowed, dropped, .. } = frame.counters();
+    let Counters {
+        clusters,
+        entries,
+        longest,
+        overflowed,
+        dropped,
+        ..
+    } = frame.counters();
     Clusters {
         grid: frame.grid(),
         occupied: clusters,
@@ -169,23 +184,43 @@ pub(super) fn clusters(frame: &Frame) -> Clusters {
 }
 
 /// Pairs, and what one cost.
-pub(super) fn pairs(count: PairCount, passes: &[Pass], device: &DeviceInfo, [width, height]: [u32; 2]) -> Pairs {
-    let time = |pass: &Pass| if device.kind == "cpu" { pass.cpu_ms } else { pass.gpu_ms.map(|ms| ms.median) };
-    let shading = passes.iter().filter(|pass| matches!(pass.name, "direct" | "indirect"));
+pub(super) fn pairs(
+    count: PairCount,
+    passes: &[Pass],
+    device: &DeviceInfo,
+    [width, height]: [u32; 2],
+) -> Pairs {
+    let time = |pass: &Pass| {
+        if device.kind == "cpu" {
+            pass.cpu_ms
+        } else {
+            pass.gpu_ms.map(|ms| ms.median)
+        }
+    };
+    let shading = passes
+        .iter()
+        .filter(|pass| matches!(pass.name, "direct" | "indirect"));
     let ms: Option<f64> = shading.map(time).sum();
     Pairs {
         evaluated: count.evaluated,
         useful: count.useful,
         per_pixel: count.evaluated as f64 / (f64::from(width) * f64::from(height)),
-        ns_per_pair: ms.filter(|_| count.evaluated > 0).map(|ms| ms * 1e6 / count.evaluated as f64),
+        ns_per_pair: ms
+            .filter(|_| count.evaluated > 0)
+            .map(|ms| ms * 1e6 / count.evaluated as f64),
     }
 }
 
 impl std::fmt::Display for Pairs {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let ratio = self.evaluated as f64 / self.useful.max(1) as f64;
-        write!(f, "{:.1} pairs a pixel, {ratio:.2} evaluated per useful one", self.per_pixel)?;
-        self.ns_per_pair.map_or(Ok(()), |ns| write!(f, ", {ns:.2} ns a pair"))
+        write!(
+            f,
+            "{:.1} pairs a pixel, {ratio:.2} evaluated per useful one",
+            self.per_pixel
+        )?;
+        self.ns_per_pair
+            .map_or(Ok(()), |ns| write!(f, ", {ns:.2} ns a pair"))
     }
 }
 
@@ -207,10 +242,17 @@ pub(super) fn print_table(title: &str, passes: &[Pass], frames: &[Timings]) {
     println!("{title}");
     println!("{:<10} {:>9}       {:>9}", "pass", "device ms", "CPU ms");
     for pass in passes {
-        let cpu = pass.cpu_ms.map_or_else(|| format!("{:>9}", "-"), |ms| format!("{ms:9.2}"));
+        let cpu = pass
+            .cpu_ms
+            .map_or_else(|| format!("{:>9}", "-"), |ms| format!("{ms:9.2}"));
         println!("{:<10} {:<16}{cpu}", pass.name, ms(pass.gpu_ms));
     }
-    println!("{:<10} {:<16}{}", "frame", format!("{} wall", ms(figure(frames, |t| Some(t.wall_ms)))), ms(figure(frames, |t| Some(t.cpu_ms))));
+    println!(
+        "{:<10} {:<16}{}",
+        "frame",
+        format!("{} wall", ms(figure(frames, |t| Some(t.wall_ms)))),
+        ms(figure(frames, |t| Some(t.cpu_ms)))
+    );
 }
 
 /// Says what a full list cost the picture.

@@ -25,6 +25,8 @@ pub enum Use {
     Texture,
     /// Depth attachment, tested and written.
     DepthWrite,
+    /// Depth attachment tested only.
+    DepthTest,
     /// Depth attachment tested only, and texture of a compute shader.
     DepthRead,
     /// Colour attachment, blended.
@@ -69,6 +71,11 @@ impl Use {
                         | A::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
                 ),
                 L::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+            ),
+            Self::DepthTest => (
+                DEPTH_TESTS,
+                A::DEPTH_STENCIL_ATTACHMENT_READ,
+                L::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
             ),
             Self::DepthRead => (
                 S::from_raw(DEPTH_TESTS.as_raw() | S::COMPUTE_SHADER.as_raw()),

@@ -219,7 +219,7 @@ fn usage(used: Use) -> vk::ImageUsageFlags {
         Use::TransferRead => vk::ImageUsageFlags::TRANSFER_SRC,
         Use::ComputeWrite => vk::ImageUsageFlags::STORAGE,
         Use::ComputeRead | Use::FragmentRead | Use::Texture => vk::ImageUsageFlags::SAMPLED,
-        Use::DepthWrite => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+        Use::DepthWrite | Use::DepthTest => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
         Use::DepthRead => {
             vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED
         }

@@ -71,7 +71,7 @@ impl Aov {
             &[Subpass {
                 color: &[0],
                 input: &[],
-                depth: Some((1, Use::DepthRead)),
+                depth: Some((1, Use::DepthTest)),
             }],
             &[],
             &[

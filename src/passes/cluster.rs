@@ -183,7 +183,7 @@ impl ClusterPass {
             cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
             cmd.bind_compute(&self.scan_lists, &sets);
             cmd.dispatch([1, 1, 1]);
-            cmd.memory_barrier(Use::ComputeWrite, Use::ComputeRead);
+            cmd.memory_barrier(Use::ComputeWrite, Use::IndirectRead);
             cmd.bind_compute(&self.write, &sets);
             cmd.dispatch_indirect(&targets.counters);
         });

@@ -122,7 +122,7 @@ fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<R
     let shading = Subpass {
         color: &[HDR],
         input: &[],
-        depth: Some((DEPTH, Use::DepthRead)),
+        depth: Some((DEPTH, Use::DepthTest)),
     };
     let present = Subpass {
         color: &[LDR],
@@ -161,7 +161,7 @@ fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<R
         &inside,
         &[
             Outside::Before(Use::TransferRead, Use::ColorWrite),
-            Outside::Before(Use::DepthWrite, Use::DepthRead),
+            Outside::Before(Use::DepthWrite, Use::DepthTest),
             Outside::After(Use::ColorWrite, Use::TransferRead),
         ],
     )
