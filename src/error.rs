@@ -52,7 +52,9 @@ pub enum Error {
         source: std::io::Error,
     },
     /// The validation layers spoke.
-    #[error("the validation layers reported {count} message(s); the first: {first}\n  remedy: this is a bug in amas or in the driver; please report it with this text")]
+    #[error(
+        "the validation layers reported {count} message(s); the first: {first}\n  remedy: this is a bug in amas or in the driver; please report it with this text"
+    )]
     Validation {
         /// How many messages.
         count: usize,
@@ -91,7 +93,10 @@ impl Error {
 
     /// An [`Error::Usage`].
     pub fn usage(cause: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::Usage { cause: cause.into(), remedy: remedy.into() }
+        Self::Usage {
+            cause: cause.into(),
+            remedy: remedy.into(),
+        }
     }
 
     /// The process's exit status: 2 bad usage or input, 3 no device, 1 any other failure.

@@ -10,12 +10,26 @@
 //! ```
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics fails"))]
 
+pub mod app;
+pub mod camera_constants;
 pub mod compare;
 pub mod error;
+pub mod frame;
+#[allow(unsafe_code, reason = "the one layer that calls Vulkan")]
+pub mod gpu;
+pub mod gpu_scene;
 pub mod image;
+pub mod light_tree;
+pub mod passes;
+pub mod probe;
 pub mod reference;
 pub mod scene;
+pub mod shared;
+pub mod targets;
 
 pub use error::{Error, Result};
+pub use frame::{Frame, FrameInputs, FrameSettings, Timings};
+pub use gpu::Device as Gpu;
+pub use gpu_scene::GpuScene;
 pub use image::HdrImage;
 pub use scene::Scene;

@@ -2,15 +2,31 @@
 //!
 //! Right-handed, +Y up, metres. Colours are scene-linear Rec.709; radiance in W·sr⁻¹·m⁻², radiant intensity in W·sr⁻¹.
 
+mod bind;
+mod bump;
 pub mod camera;
+mod decode;
+mod files;
+mod geometry;
 pub mod light;
+mod load;
 pub mod material;
 pub mod mesh;
+mod mtl;
+mod obj;
+mod outline;
+mod parse;
+mod points;
+mod presets;
 pub mod settings;
+mod shapes;
+mod tangents;
 pub mod texture;
+mod triangulate;
 
 pub use camera::{Camera, KeyFrame, Projection};
 pub use light::{AreaLight, AreaShape, PointLight};
+pub use load::{load, load_embedded};
 pub use material::{Material, Model, Parameter};
 pub use mesh::{Mesh, Vertex};
 pub use settings::RenderSettings;

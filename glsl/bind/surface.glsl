@@ -1,0 +1,116 @@
+// The shaded surface: interpolated attributes, the material's parameters and its BSDF in the local frame.
+#ifndef BIND_SURFACE_GLSL
+#define BIND_SURFACE_GLSL
+
+layout(set = SET_scene, binding = SCENE_MATERIALS, std430) readonly buffer MaterialBlock { MaterialRecord materials[]; };
+layout(push_constant, std430) uniform PushBlock { DrawConstants draw; };
+
+layout(constant_id = 0) const uint MODEL = MODEL_MATTE;
+layout(constant_id = 1) const bool ANISOTROPIC = false;
+layout(constant_id = 2) const bool SQUARED_ROUGHNESS = false;
+layout(constant_id = 3) const bool ROUGH_MATTE = false;
+layout(constant_id = 4) const bool LOBE_SHEEN = false;
+layout(constant_id = 5) const bool LOBE_CLEARCOAT = false;
+layout(constant_id = 6) const bool LOBE_SUBSURFACE = false;
+layout(constant_id = 7) const bool LOBE_METALLIC = false;
+layout(constant_id = 8) const bool TWO_SIDED = true;
+layout(constant_id = 9) const bool PERSPECTIVE = true;
+
+layout(location = 0) in vec3 in_position;
+layout(location = 1) in vec3 in_normal;
+layout(location = 2) in vec4 in_tangent;
+layout(location = 3) in vec2 in_uv;
+
+#include "lib/bsdf.glsl"
+
+struct Surface {
+  vec3 position;  // world
+  mat3 world_from_local;  // columns: tangent, bitangent, normal
+  Bsdf bsdf;
+};
+
+vec3 parameter(uint row, uint slot) {
+  if (slot != NO_TEXTURE) return sample_slot(slot, in_uv).rgb;
+  return materials[draw.material].rows[row].xyz;
+}
+
+// Tangent, bitangent, normal; the normal is turned to the viewer, the tangent orthogonal to it.
+mat3 shading_frame() {
+  vec3 n = normalize(in_normal);
+  if (TWO_SIDED && !gl_FrontFacing) n = -n;
+  vec3 t = in_tangent.xyz - n * dot(n, in_tangent.xyz);
+  float t2 = dot(t, t);
+  // Without texture coordinates there is no tangent: any frame serves.
+  if (!(t2 > 1e-12)) {
+    float s = n.z < 0.0 ? -1.0 : 1.0;  // Duff et al. 2017
+    float a = -1.0 / (s + n.z);
+    t = vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+    t2 = dot(t, t);
+  }
+  t *= inversesqrt(t2);
+  vec3 b = cross(n, t);
+  if (SLOT_NORMAL == NO_TEXTURE) return mat3(t, b, n);
+  vec3 m = sample_slot(SLOT_NORMAL, in_uv).xyz * 2.0 - 1.0;
+  float handed = in_tangent.w < 0.0 ? -1.0 : 1.0;
+  vec3 mapped = m.x * t + m.y * handed * b + m.z * n;
+  n = dot(mapped, mapped) > 1e-12 ? normalize(mapped) : n;
+  t -= n * dot(n, t);
+  t2 = dot(t, t);
+  t = t2 > 1e-12 ? t * inversesqrt(t2) : normalize(cross(b, n));
+  return mat3(t, cross(n, t), n);
+}
+
+// As `reference::shading` has it: roughness or alpha, stretched by the aspect, at least 1e-3.
+vec2 alphas(float roughness) {
+  float alpha = SQUARED_ROUGHNESS ? roughness * roughness : roughness;
+  float aspect = 1.0;
+  if (ANISOTROPIC) {
+    aspect = parameter(3u, SLOT_ASPECT).x;
+    if (SLOT_ASPECT != NO_TEXTURE) aspect = sqrt(1.0 - 0.9 * aspect);
+    // A tangent of length 0 has no direction to stretch along.
+    if (dot(in_tangent.xyz, in_tangent.xyz) == 0.0) aspect = 1.0;
+  }
+  return max(vec2(alpha / aspect, alpha * aspect), vec2(1e-3));
+}
+
+BsdfParameters surface_parameters() {
+  BsdfParameters p;
+  p.color = parameter(0u, SLOT_COLOR);
+  p.specular = parameter(1u, SLOT_SPECULAR);
+  p.roughness = parameter(2u, SLOT_ROUGHNESS).x;
+  vec2 a = alphas(p.roughness);
+  p.alpha_x = a.x;
+  p.alpha_y = a.y;
+  p.sigma = parameter(4u, SLOT_SIGMA).x;
+  p.eta = parameter(5u, SLOT_ETA).x;
+  p.metallic = parameter(6u, SLOT_METALLIC).x;
+  p.specular_tint = parameter(7u, SLOT_SPECULAR_TINT).x;
+  p.sheen = parameter(8u, SLOT_SHEEN).x;
+  p.sheen_tint = parameter(9u, SLOT_SHEEN_TINT).x;
+  p.clearcoat = parameter(10u, SLOT_CLEARCOAT).x;
+  p.clearcoat_gloss = parameter(11u, SLOT_CLEARCOAT_GLOSS).x;
+  p.subsurface = parameter(12u, SLOT_SUBSURFACE).x;
+  return p;
+}
+
+Surface surface_here() {
+  Surface s;
+  s.position = in_position;
+  s.world_from_local = shading_frame();
+  vec3 to_eye = PERSPECTIVE ? normalize(frame.eye - in_position) : -frame.forward;
+  s.bsdf = bsdf_setup(surface_parameters(), to_eye * s.world_from_local);
+  return s;
+}
+
+// Radiance towards the viewer from one point light.
+vec3 reflected(Surface s, uint light) {
+  vec4 place = light_place(light);
+  vec4 power = light_power(light);
+  vec3 to_light = place.xyz - s.position;
+  float d2 = dot(to_light, to_light);
+  // A light on the surface has no direction: wi = 0, which every BSDF answers with 0.
+  vec3 wi = (to_light * inversesqrt(max(d2, 1e-30))) * s.world_from_local;
+  return bsdf_eval_cos(s.bsdf, wi) * (power.rgb * falloff(d2, place.w, power.w));
+}
+
+#endif

@@ -1,0 +1,43 @@
+// Step 6: the lists, four indices a texel, padded with the null light so that the shading loop has no tail.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared.glsl"
+#include "bind/frame.glsl"
+#include "bind/lights.glsl"
+#include "lib/cluster.glsl"
+
+layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) readonly buffer ClusterBlock { Cluster clusters[]; };
+layout(set = SET_frame, binding = FRAME_COUNTERS, std430) readonly buffer CounterBlock { Counters counters; };
+layout(set = SET_frame, binding = FRAME_LISTS_OUT, rgba32ui) writeonly uniform uimage2DArray light_lists;
+
+uint written = 0u;
+uint texel = 0u;
+uvec4 four = uvec4(0u);
+
+void append(uint light) {
+  if (written >= frame.max_list) return;
+  uint slot = written & 3u;
+  // Selects, not four[slot]: a dynamic index would put the vector in memory.
+  four = uvec4(slot == 0u ? light : four.x, slot == 1u ? light : four.y, slot == 2u ? light : four.z, light);
+  ++written;
+  if (slot == 3u) imageStore(light_lists, list_texel(texel++), four);
+}
+
+#define ON_LIGHT(index) append(index);
+#include "cluster/reach.glsl"
+
+void main() {
+  uint id = gl_GlobalInvocationID.x;
+  if (id >= min(counters.clusters, frame.cluster_capacity)) return;
+  texel = clusters[id].list;
+  uint kept = min(clusters[id].reaching, frame.max_list);
+  if (texel + (kept + 3u) / 4u > frame.list_capacity) return;
+  visit_lights(clusters[id].lower, clusters[id].upper);
+  uint tail = written & 3u;
+  if (tail == 0u) return;
+  uint null_light = frame.light_count;
+  imageStore(
+      light_lists, list_texel(texel),
+      uvec4(four.x, tail > 1u ? four.y : null_light, tail > 2u ? four.z : null_light, null_light));
+}

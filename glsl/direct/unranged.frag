@@ -1,0 +1,19 @@
+// Direct subpass: every point light without a range reaches every pixel, so they are evaluated one by one.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared.glsl"
+#include "bind/frame.glsl"
+#include "bind/lights.glsl"
+#include "bind/textures.glsl"
+#include "lib/light.glsl"
+#include "bind/surface.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+void main() {
+  Surface surface = surface_here();
+  vec3 sum = vec3(0.0);
+  for (uint light = frame.direct_begin; light < frame.light_count; ++light) sum += reflected(surface, light);
+  radiance = vec4(sum, 1.0);
+}

@@ -1,0 +1,55 @@
+// The five BSDFs behind one interface: set up once per pixel, evaluate for many lights.
+//
+// Directions are unit vectors in the local frame: z the normal, x the tangent; wo to the viewer, wi to the light. f is
+// the BRDF in sr⁻¹, zero unless both lie above the surface. `docs` of each equation: the model's own file.
+//
+// The including shader declares these as specialisation constants, before this line:
+//   int MODEL             MODEL_MATTE … MODEL_PRINCIPLED
+//   bool ANISOTROPIC      false: alpha_x is the alpha of both axes
+//   bool ROUGH_MATTE      false: sigma is 0
+//   bool LOBE_SUBSURFACE, LOBE_SHEEN, LOBE_CLEARCOAT, LOBE_METALLIC   false: that weight of principled is 0
+// Constants, because Mesa 22.3.6 runs what lies behind an untaken branch too: a lobe that no material has must not exist.
+#ifndef LIB_BSDF_GLSL
+#define LIB_BSDF_GLSL
+
+#include "lib/bsdf/parameters.glsl"
+#include "lib/bsdf/matte.glsl"
+#include "lib/bsdf/plastic.glsl"
+#include "lib/bsdf/metal.glsl"
+#include "lib/bsdf/substrate.glsl"
+#include "lib/bsdf/principled.glsl"
+
+// Only the member of MODEL is ever set or read; the others leave no trace in the compiled shader.
+struct Bsdf {
+    Matte matte;
+    Plastic plastic;
+    Metal metal;
+    Substrate substrate;
+    Principled principled;
+};
+
+Bsdf bsdf_setup(BsdfParameters p, vec3 wo) {
+    Bsdf b;
+    if (MODEL == MODEL_MATTE) b.matte = matte_setup(p, wo);
+    if (MODEL == MODEL_PLASTIC) b.plastic = plastic_setup(p, wo);
+    if (MODEL == MODEL_METAL) b.metal = metal_setup(p, wo);
+    if (MODEL == MODEL_SUBSTRATE) b.substrate = substrate_setup(p, wo);
+    if (MODEL == MODEL_PRINCIPLED) b.principled = principled_setup(p, wo);
+    return b;
+}
+
+// f(wo, wi) cosθi.
+vec3 bsdf_eval_cos(Bsdf b, vec3 wi) {
+    if (MODEL == MODEL_MATTE) return matte_eval_cos(b.matte, wi);
+    if (MODEL == MODEL_PLASTIC) return plastic_eval_cos(b.plastic, wi);
+    if (MODEL == MODEL_METAL) return metal_eval_cos(b.metal, wi);
+    if (MODEL == MODEL_SUBSTRATE) return substrate_eval_cos(b.substrate, wi);
+    return principled_eval_cos(b.principled, wi);
+}
+
+// f(wo, wi), for tests and tables: all models have their quotients with cosθi in them, so dividing it out costs one ulp.
+vec3 bsdf_eval(Bsdf b, vec3 wi) {
+    return bsdf_eval_cos(b, wi) / max(wi.z, MIN_COSINE);
+}
+
+#endif

@@ -1,0 +1,408 @@
+//! The frame: its passes in order, and the barriers between them, top to bottom.
+//!
+//! prepass → cluster → forward (direct → indirect → present)
+
+mod timing;
+
+pub use timing::{PassTime, Timings};
+
+use crate::camera_constants::camera_constants;
+use crate::error::Result;
+use crate::gpu::{Buffer, BufferUse, Commands, DescriptorSets, Device, Timestamps, Use};
+use crate::gpu_scene::GpuScene;
+use crate::image::HdrImage;
+use crate::passes::PassInputs;
+use crate::passes::aov::{Aov, Quantity};
+use crate::passes::cluster::{Capacity, ClusterPass, ClusterTargets};
+use crate::passes::forward::{Forward, Sample, Work};
+use crate::passes::pairs::{PairCount, PairPass};
+use crate::passes::prepass::Prepass;
+use crate::scene::settings::Tonemap;
+use crate::scene::{Camera, Projection, RenderSettings};
+use crate::shared::{self, Counters, FrameConstants};
+use crate::targets::Targets;
+use std::sync::Arc;
+use timing::Stopwatch;
+
+/// What a frame is made for; changing it means a new [`Frame`].
+#[derive(Clone, Copy, Debug)]
+pub struct FrameSettings {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Tone curve.
+    pub tonemap: Tonemap,
+    /// Radiance where no surface is.
+    pub background: [f32; 3],
+    /// Longest light list.
+    pub max_lights_per_cluster: u32,
+    /// Perspective camera; orthographic otherwise.
+    pub perspective: bool,
+    /// Every light on every pixel, without clusters: what the clustered picture is measured against.
+    pub brute_force: bool,
+}
+
+impl FrameSettings {
+    /// The settings of a scene under one of its cameras.
+    #[must_use]
+    pub fn new(render: &RenderSettings, camera: &Camera) -> Self {
+        Self {
+            size: render.size,
+            tonemap: render.tonemap,
+            background: render.background,
+            max_lights_per_cluster: render.max_lights_per_cluster,
+            perspective: matches!(camera.projection, Projection::Perspective { .. }),
+            brute_force: false,
+        }
+    }
+}
+
+/// What changes from picture to picture.
+#[derive(Clone, Debug)]
+pub struct FrameInputs<'a> {
+    /// Camera, of the kind that the frame was made for.
+    pub camera: &'a Camera,
+    /// Samples a pixel; 1 goes through its centre.
+    pub samples: u32,
+    /// Exposure in EV, for the display-referred picture.
+    pub exposure: f32,
+    /// Submit pass by pass, so that each pass's CPU time is known; slower.
+    pub split: bool,
+}
+
+/// A scene's frame on a device.
+pub struct Frame {
+    device: Arc<Device>,
+    scene: Arc<GpuScene>,
+    settings: FrameSettings,
+    targets: Targets,
+    prepass: Prepass,
+    cluster: Option<ClusterPass>,
+    forward: Forward,
+    lists: ClusterTargets,
+    constants: Buffer<FrameConstants>,
+    set: DescriptorSets,
+    readback: Buffer<Counters>,
+    counters: Counters,
+    timestamps: Timestamps,
+    pass_names: Vec<&'static str>,
+    samples: u32,
+}
+
+impl Frame {
+    /// Compiles the passes that the scene needs and makes their targets.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] where memory is short.
+    pub fn new(
+        device: &Arc<Device>,
+        scene: &Arc<GpuScene>,
+        settings: FrameSettings,
+    ) -> Result<Self> {
+        let inputs = PassInputs {
+            device,
+            scene,
+            perspective: settings.perspective,
+        };
+        let work = work(scene, &settings);
+        let targets = Targets::new(device, settings.size)?;
+        let tiles = tiles(settings.size);
+        let pass_names = pass_names(work);
+        let frame = Self {
+            prepass: Prepass::new(&inputs, &targets)?,
+            cluster: work
+                .clustered
+                .then(|| ClusterPass::new(&inputs))
+                .transpose()?,
+            forward: Forward::new(&inputs, &targets, work)?,
+            lists: ClusterTargets::new(device, tiles, Capacity::start(tiles))?,
+            constants: Buffer::new(device, "frame constants", BufferUse::Uniform, 1)?,
+            set: scene.layout.allocate(shared::frame::SET, 1)?,
+            readback: Buffer::new(device, "counters readback", BufferUse::Readback, 1)?,
+            counters: Counters::default(),
+            timestamps: Timestamps::new(device, pass_names.len() as u32 + 1)?,
+            pass_names,
+            samples: 0,
+            targets,
+            device: device.clone(),
+            scene: scene.clone(),
+            settings,
+        };
+        frame.bind();
+        Ok(frame)
+    }
+
+    /// Renders a picture; it stays on the device until it is fetched.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn render(&mut self, inputs: &FrameInputs<'_>) -> Result<Timings> {
+        // A frame that needs more room for clusters than any before it is rendered again: no picture lacks light
+        // because a buffer was too small.
+        loop {
+            if let Some(timings) = self.accumulate(inputs)? {
+                return Ok(timings);
+            }
+        }
+    }
+
+    /// Adds up the samples; `None` if clusters or lists did not fit, and now have room.
+    fn accumulate(&mut self, inputs: &FrameInputs<'_>) -> Result<Option<Timings>> {
+        let mut watch = Stopwatch::start(&self.pass_names);
+        for index in 0..inputs.samples {
+            self.update_constants(inputs.camera, jitter(index, inputs.samples))?;
+            let sample = Sample {
+                first: index == 0,
+                scale: inputs.exposure.exp2() / (index + 1) as f32,
+            };
+            self.submit(sample, inputs.split, &mut watch)?;
+            watch.add_gpu(self.timestamps.intervals()?);
+            self.samples = index + 1;
+            self.counters = self.readback.read()?[0];
+            if self.cluster.is_some()
+                && let Some(capacity) = self.lists.capacity.grown(&self.counters)
+            {
+                self.lists =
+                    ClusterTargets::new(&self.device, tiles(self.settings.size), capacity)?;
+                self.bind();
+                return Ok(None);
+            }
+        }
+        Ok(Some(watch.stop()))
+    }
+
+    fn submit(&self, sample: Sample, split: bool, watch: &mut Stopwatch) -> Result<()> {
+        type Record<'a> = &'a dyn Fn(&Frame, &mut Commands);
+        let forward = |frame: &Self, cmd: &mut Commands| frame.record_forward(cmd, sample);
+        let steps: [(usize, Record<'_>); 3] = [
+            (1, &Self::record_prepass),
+            (usize::from(self.cluster.is_some()), &Self::record_cluster),
+            (usize::MAX, &forward),
+        ];
+        if split {
+            for (passes, record) in steps {
+                let before = watch.cpu();
+                self.device.run("pass", |cmd| {
+                    record(self, cmd);
+                    Ok(())
+                })?;
+                watch.add_cpu(passes, before);
+            }
+            return Ok(());
+        }
+        self.device.run("frame", |cmd| {
+            steps.iter().for_each(|(_, record)| record(self, cmd));
+            Ok(())
+        })
+    }
+
+    fn record_prepass(&self, cmd: &mut Commands) {
+        cmd.reset_timestamps(&self.timestamps);
+        cmd.timestamp(&self.timestamps, 0);
+        self.prepass.record(cmd, &self.scene, self.set.get(0));
+        cmd.timestamp(&self.timestamps, 1);
+    }
+
+    fn record_cluster(&self, cmd: &mut Commands) {
+        let Some(cluster) = &self.cluster else { return };
+        cmd.transition(
+            &self.targets.cluster_ids,
+            Use::FragmentRead,
+            Use::ComputeWrite,
+        );
+        cmd.transition(&self.lists.lists, Use::FragmentRead, Use::ComputeWrite);
+        cluster.record(
+            cmd,
+            &self.scene,
+            self.set.get(0),
+            &self.lists,
+            tiles_of(self.settings.size),
+        );
+        cmd.transition(
+            &self.targets.cluster_ids,
+            Use::ComputeWrite,
+            Use::FragmentRead,
+        );
+        cmd.transition(&self.lists.lists, Use::ComputeWrite, Use::FragmentRead);
+        cmd.memory_barrier(Use::ComputeWrite, Use::FragmentRead);
+        cmd.timestamp(&self.timestamps, 2);
+    }
+
+    fn record_forward(&self, cmd: &mut Commands, sample: Sample) {
+        let stamp = 2 + u32::from(self.cluster.is_some());
+        self.forward.record(
+            cmd,
+            &self.scene,
+            self.set.get(0),
+            sample,
+            (&self.timestamps, stamp),
+        );
+        cmd.memory_barrier(Use::ComputeWrite, Use::TransferRead);
+        cmd.copy_buffer(&self.lists.counters, &self.readback);
+        cmd.memory_barrier(Use::TransferWrite, Use::HostRead);
+    }
+
+    fn update_constants(&mut self, camera: &Camera, jitter: [f64; 2]) -> Result<()> {
+        let mut constants = camera_constants(camera, self.settings.size, jitter, self.scene.bounds);
+        constants.light_count = self.scene.lights.lights.len() as u32;
+        constants.direct_begin = if self.settings.brute_force {
+            0
+        } else {
+            self.scene.lights.ranged as u32
+        };
+        constants.node_count = self.scene.lights.nodes.len() as u32;
+        constants.max_list = self.settings.max_lights_per_cluster;
+        constants.cluster_capacity = self.lists.capacity.clusters;
+        constants.list_capacity = self.lists.capacity.texels;
+        constants.background = self.settings.background;
+        self.constants.write(&[constants])
+    }
+
+    fn bind(&self) {
+        let set = self.set.get(0);
+        set.buffer(shared::frame::FRAME_CONSTANTS, &self.constants);
+        set.image(
+            shared::frame::FRAME_DEPTH,
+            &self.targets.depth,
+            Use::DepthRead,
+        );
+        set.image(
+            shared::frame::FRAME_CLUSTER_IDS_OUT,
+            &self.targets.cluster_ids,
+            Use::ComputeWrite,
+        );
+        set.image(
+            shared::frame::FRAME_CLUSTER_IDS,
+            &self.targets.cluster_ids,
+            Use::FragmentRead,
+        );
+        set.image(shared::frame::FRAME_HDR, &self.targets.hdr, Use::InputRead);
+        self.lists.bind(set);
+    }
+
+    /// The scene-linear picture.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn hdr(&self) -> Result<HdrImage> {
+        let texels: Vec<[f32; 4]> = self
+            .targets
+            .hdr
+            .fetch(Use::TransferRead, Use::TransferRead)?;
+        let samples = self.samples.max(1) as f32;
+        Ok(self.image(
+            texels
+                .iter()
+                .map(|&[r, g, b, _]| [r / samples, g / samples, b / samples])
+                .collect(),
+        ))
+    }
+
+    /// The display-referred picture, sRGB-encoded.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn ldr(&self) -> Result<Vec<[u8; 4]>> {
+        self.targets.ldr.fetch(Use::TransferRead, Use::TransferRead)
+    }
+
+    /// One quantity of the surface last rendered, without jitter if the picture had one sample.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn aov(&self, quantity: Quantity) -> Result<Vec<[f32; 4]>> {
+        let inputs = PassInputs {
+            device: &self.device,
+            scene: &self.scene,
+            perspective: self.settings.perspective,
+        };
+        let aov = Aov::new(&inputs, &self.targets, quantity)?;
+        self.device.run("aov", |cmd| {
+            aov.record(cmd, &self.scene, self.set.get(0));
+            Ok(())
+        })?;
+        aov.fetch()
+    }
+
+    /// Pairs of pixel and light in the picture last rendered.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn pairs(&self) -> Result<PairCount> {
+        PairPass::new(&self.device, &self.scene, tiles(self.settings.size))?.count(
+            &self.device,
+            &self.scene,
+            self.set.get(0),
+            tiles_of(self.settings.size),
+        )
+    }
+
+    /// What the cluster pass counted for the last sample; zero where the scene has no lights with a range.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        if self.cluster.is_some() {
+            self.counters
+        } else {
+            Counters::default()
+        }
+    }
+
+    /// The cluster pass's results, for tests of the lists.
+    #[must_use]
+    pub fn cluster_targets(&self) -> (&Targets, &ClusterTargets) {
+        (&self.targets, &self.lists)
+    }
+
+    fn image(&self, pixels: Vec<[f32; 3]>) -> HdrImage {
+        HdrImage {
+            width: self.settings.size[0],
+            height: self.settings.size[1],
+            pixels,
+        }
+    }
+}
+
+fn work(scene: &GpuScene, settings: &FrameSettings) -> Work {
+    let lights = &scene.lights;
+    let drawn = !scene.draws.is_empty();
+    let clustered = drawn && lights.ranged > 0 && !settings.brute_force;
+    Work {
+        unranged: drawn && lights.lights.len() > if clustered { lights.ranged } else { 0 },
+        background: settings.background != [0.0; 3],
+        clustered,
+        tonemap: settings.tonemap,
+    }
+}
+
+fn pass_names(work: Work) -> Vec<&'static str> {
+    let passes = [
+        ("prepass", true),
+        ("cluster", work.clustered),
+        ("direct", true),
+        ("indirect", work.clustered),
+        ("present", true),
+    ];
+    passes
+        .into_iter()
+        .filter(|(_, recorded)| *recorded)
+        .map(|(name, _)| name)
+        .collect()
+}
+
+fn tiles_of(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| side.div_ceil(shared::TILE_SIZE))
+}
+
+fn tiles(size: [u32; 2]) -> u32 {
+    let [x, y] = tiles_of(size);
+    x * y
+}
+
+/// Offset of a sample from its pixel's centre: the R2 sequence (Roberts 2018), starting at the centre.
+fn jitter(index: u32, samples: u32) -> [f64; 2] {
+    if samples == 1 {
+        return [0.0; 2];
+    }
+    // Powers of the inverse of the plastic number.
+    [0.754_877_666_246_692_8, 0.569_840_290_998_053_2]
+        .map(|alpha| (0.5 + alpha * f64::from(index)).fract() - 0.5)
+}

@@ -1,0 +1,350 @@
+//! The device: chosen by what amas needs, with one queue, one command pool and the allocator.
+
+use super::allocation::Memory;
+use super::instance::Instance;
+use super::requirements::{self, Facts, Report};
+use super::{Called, Commands};
+use crate::error::{Error, Result};
+use ash::vk;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// How to open a device.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Index, or part of a name; without it the best usable device is taken.
+    pub device: Option<String>,
+    /// Turn on the validation layers with synchronisation checks.
+    pub validate: bool,
+}
+
+/// What a device is, and what it lacks.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct DeviceInfo {
+    /// As the driver names it.
+    pub name: String,
+    /// Driver and its version.
+    pub driver: String,
+    /// Vulkan version.
+    pub api: String,
+    /// discrete, integrated, virtual, cpu or other.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// What amas needs, row by row.
+    #[serde(skip)]
+    pub report: Report,
+}
+
+/// A logical device with its queue.
+pub struct Device {
+    pub(super) raw: ash::Device,
+    pub(super) memory: Memory,
+    pub(super) debug: Option<ash::ext::debug_utils::Device>,
+    pub(super) timestamp_period: f32,
+    pub(super) timestamp_bits: u32,
+    pub(super) max_anisotropy: Option<f32>,
+    info: DeviceInfo,
+    queue: vk::Queue,
+    pool: vk::CommandPool,
+    // Queue and pool are used by one thread at a time.
+    turn: Mutex<()>,
+    instance: Instance,
+}
+
+impl Device {
+    /// Opens a device.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`] where none answers or none suffices, with the reason for each.
+    pub fn open(options: &Options) -> Result<Arc<Self>> {
+        let instance = Instance::new(options.validate)?;
+        let candidates = candidates(&instance)?;
+        let chosen = choose(candidates, options.device.as_deref())?;
+        Self::create(instance, chosen).map(Arc::new)
+    }
+
+    /// Every device of the machine, with what it lacks.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`] without a loader.
+    pub fn enumerate() -> Result<Vec<DeviceInfo>> {
+        let instance = Instance::new(false)?;
+        Ok(candidates(&instance)?
+            .into_iter()
+            .map(|candidate| candidate.info)
+            .collect())
+    }
+
+    fn create(instance: Instance, chosen: Candidate) -> Result<Self> {
+        let priorities = [1.0];
+        let queues = [vk::DeviceQueueCreateInfo::default()
+            .queue_family_index(chosen.family)
+            .queue_priorities(&priorities)];
+        // SAFETY: the device belongs to the instance.
+        let supported = unsafe { instance.raw.get_physical_device_features(chosen.physical) };
+        let features = vk::PhysicalDeviceFeatures {
+            sampler_anisotropy: supported.sampler_anisotropy,
+            ..vk::PhysicalDeviceFeatures::default()
+        };
+        let info = vk::DeviceCreateInfo::default()
+            .queue_create_infos(&queues)
+            .enabled_features(&features);
+        // SAFETY: the queue family exists, and only supported features are turned on.
+        let raw = unsafe { instance.raw.create_device(chosen.physical, &info, None) }
+            .called("vkCreateDevice")?;
+        // SAFETY: queue 0 of the family was asked for above.
+        let queue = unsafe { raw.get_device_queue(chosen.family, 0) };
+        let pool_info = vk::CommandPoolCreateInfo::default()
+            .queue_family_index(chosen.family)
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT);
+        // SAFETY: as above.
+        let pool =
+            unsafe { raw.create_command_pool(&pool_info, None) }.called("vkCreateCommandPool")?;
+        let debug = instance
+            .debug_utils
+            .then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw));
+        let memory = Memory::new(&instance.raw, &raw, chosen.physical)?;
+        Ok(Self {
+            memory,
+            debug,
+            timestamp_period: chosen.limits.timestamp_period,
+            timestamp_bits: chosen.timestamp_bits,
+            max_anisotropy: (supported.sampler_anisotropy == vk::TRUE)
+                .then_some(chosen.limits.max_sampler_anisotropy),
+            info: chosen.info,
+            queue,
+            pool,
+            turn: Mutex::new(()),
+            instance,
+            raw,
+        })
+    }
+
+    /// What the device is.
+    #[must_use]
+    pub fn info(&self) -> &DeviceInfo {
+        &self.info
+    }
+
+    /// Largest number of device bytes in use at once so far.
+    #[must_use]
+    pub fn peak_memory(&self) -> u64 {
+        self.memory.peak()
+    }
+
+    /// What the validation layers said so far; `None` where they are off.
+    #[must_use]
+    pub fn validation_messages(&self) -> Option<Vec<String>> {
+        self.instance.log.as_ref().map(|log| log.messages())
+    }
+
+    /// [`Error::Validation`] if the validation layers said anything.
+    ///
+    /// # Errors
+    /// See above.
+    pub fn require_silence(&self) -> Result<()> {
+        match self.validation_messages().unwrap_or_default() {
+            messages if messages.is_empty() => Ok(()),
+            messages => Err(Error::Validation {
+                count: messages.len(),
+                first: messages[0].clone(),
+            }),
+        }
+    }
+
+    /// Records commands, submits them and waits until the device has finished.
+    ///
+    /// # Errors
+    /// [`Error::Vulkan`] from recording or from the driver.
+    pub fn run<T>(
+        self: &Arc<Self>,
+        name: &str,
+        record: impl FnOnce(&mut Commands) -> Result<T>,
+    ) -> Result<T> {
+        let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
+        let info = vk::CommandBufferAllocateInfo::default()
+            .command_pool(self.pool)
+            .command_buffer_count(1);
+        // SAFETY: the pool belongs to this device, and this thread has the turn.
+        let buffers = unsafe { self.raw.allocate_command_buffers(&info) }
+            .called("vkAllocateCommandBuffers")?;
+        let result = Commands::record(self, buffers[0], name, record).and_then(|value| {
+            self.submit_and_wait(buffers[0])?;
+            Ok(value)
+        });
+        // SAFETY: the buffer is not pending: it was waited for, or never submitted.
+        unsafe { self.raw.free_command_buffers(self.pool, &buffers) };
+        result
+    }
+
+    fn submit_and_wait(&self, buffer: vk::CommandBuffer) -> Result<()> {
+        let buffers = [buffer];
+        let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
+        // SAFETY: the buffer is fully recorded, and is not resubmitted.
+        unsafe {
+            self.raw
+                .queue_submit(self.queue, &submits, vk::Fence::null())
+        }
+        .called("vkQueueSubmit")?;
+        // SAFETY: this thread has the turn.
+        unsafe { self.raw.queue_wait_idle(self.queue) }.called("vkQueueWaitIdle")
+    }
+
+    /// Names an object in captures and validation messages.
+    pub(super) fn name<H: vk::Handle>(&self, handle: H, name: &str) {
+        let (Some(debug), Ok(name)) = (&self.debug, std::ffi::CString::new(name)) else {
+            return;
+        };
+        let info = vk::DebugUtilsObjectNameInfoEXT::default()
+            .object_handle(handle)
+            .object_name(&name);
+        // SAFETY: the handle is alive. A name that cannot be set is no reason to stop.
+        let _ = unsafe { debug.set_debug_utils_object_name(&info) };
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        self.memory.close();
+        // SAFETY: everything made from the device holds it by `Arc` and is gone; nothing is pending after `run`.
+        unsafe { self.raw.destroy_command_pool(self.pool, None) };
+        // SAFETY: as above.
+        unsafe { self.raw.destroy_device(None) };
+    }
+}
+
+struct Candidate {
+    physical: vk::PhysicalDevice,
+    info: DeviceInfo,
+    limits: vk::PhysicalDeviceLimits,
+    family: u32,
+    timestamp_bits: u32,
+    rank: u32,
+}
+
+fn candidates(instance: &Instance) -> Result<Vec<Candidate>> {
+    // SAFETY: the instance is alive.
+    let devices = unsafe { instance.raw.enumerate_physical_devices() }
+        .called("vkEnumeratePhysicalDevices")?;
+    Ok(devices
+        .into_iter()
+        .map(|physical| describe(&instance.raw, physical))
+        .collect())
+}
+
+fn describe(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Candidate {
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+    // SAFETY: the device belongs to the instance; the chain outlives the call.
+    unsafe { instance.get_physical_device_properties2(physical, &mut properties) };
+    let properties = properties.properties;
+    // SAFETY: as above.
+    let queues = unsafe { instance.get_physical_device_queue_family_properties(physical) };
+    let family = requirements::queue_family(&queues).unwrap_or(0);
+    let timestamp_bits = queues
+        .get(family as usize)
+        .map_or(0, |queue| queue.timestamp_valid_bits);
+    let (kind, rank) = match properties.device_type {
+        vk::PhysicalDeviceType::DISCRETE_GPU => ("discrete", 0),
+        vk::PhysicalDeviceType::INTEGRATED_GPU => ("integrated", 1),
+        vk::PhysicalDeviceType::VIRTUAL_GPU => ("virtual", 2),
+        vk::PhysicalDeviceType::CPU => ("cpu", 3),
+        _ => ("other", 4),
+    };
+    let text = |raw: Result<&std::ffi::CStr, _>| {
+        raw.map_or_else(|_| "?".into(), |s| s.to_string_lossy().into_owned())
+    };
+    let report = requirements::check(&Facts {
+        instance,
+        device: physical,
+        properties,
+        queues,
+    });
+    let info = DeviceInfo {
+        name: text(properties.device_name_as_c_str()),
+        driver: format!(
+            "{} {}",
+            text(driver.driver_name_as_c_str()),
+            text(driver.driver_info_as_c_str())
+        ),
+        api: requirements::version_text(properties.api_version),
+        kind,
+        report,
+    };
+    Candidate {
+        physical,
+        info,
+        limits: properties.limits,
+        family,
+        timestamp_bits,
+        rank,
+    }
+}
+
+fn choose(mut candidates: Vec<Candidate>, wanted: Option<&str>) -> Result<Candidate> {
+    if candidates.is_empty() {
+        return Err(Error::NoDevice {
+            cause: "the machine has no Vulkan driver".into(),
+            remedy: "run ./setup, or install a driver; mesa-vulkan-drivers renders on the CPU"
+                .into(),
+        });
+    }
+    let names: Vec<String> = candidates
+        .iter()
+        .enumerate()
+        .map(|(i, candidate)| format!("{i}: {}", candidate.info.name))
+        .collect();
+    let index = match wanted {
+        Some(wanted) => find(&candidates, wanted),
+        None => (0..candidates.len())
+            .filter(|&i| candidates[i].info.report.missing().is_none())
+            .min_by_key(|&i| candidates[i].rank),
+    };
+    match index {
+        Some(index) => {
+            let chosen = candidates.swap_remove(index);
+            match chosen.info.report.missing() {
+                None => Ok(chosen),
+                Some(missing) => Err(unusable(&format!("{}: {missing}", chosen.info.name))),
+            }
+        }
+        None if wanted.is_some() => Err(Error::NoDevice {
+            cause: format!(
+                "no device is named {:?}; there are {}",
+                wanted.unwrap_or_default(),
+                names.join(", ")
+            ),
+            remedy: "choose one of these with --device NAME or --device INDEX".into(),
+        }),
+        None => {
+            let reasons: Vec<String> = candidates
+                .iter()
+                .map(|c| {
+                    format!(
+                        "{}: {}",
+                        c.info.name,
+                        c.info.report.missing().unwrap_or_default()
+                    )
+                })
+                .collect();
+            Err(unusable(&reasons.join("; ")))
+        }
+    }
+}
+
+fn unusable(cause: &str) -> Error {
+    Error::NoDevice {
+        cause: cause.into(),
+        remedy: "update the driver, or install mesa-vulkan-drivers".into(),
+    }
+}
+
+fn find(candidates: &[Candidate], wanted: &str) -> Option<usize> {
+    if let Ok(index) = wanted.parse::<usize>() {
+        return (index < candidates.len()).then_some(index);
+    }
+    let wanted = wanted.to_lowercase();
+    candidates.iter().position(|candidate| {
+        candidate.info.name.to_lowercase().contains(&wanted)
+            || candidate.info.driver.to_lowercase().contains(&wanted)
+    })
+}

@@ -1,0 +1,258 @@
+//! Images with one view each.
+
+use super::device::Device;
+use super::{Buffer, BufferUse, Called, Commands, Use};
+use crate::error::Result;
+use ash::vk;
+use bytemuck::Pod;
+use gpu_allocator::vulkan::Allocation;
+use std::sync::Arc;
+
+/// What an image is.
+#[derive(Clone, Copy, Debug)]
+pub struct ImageDescription<'a> {
+    /// In captures.
+    pub name: &'a str,
+    /// Texel format.
+    pub format: vk::Format,
+    /// Texels across and down.
+    pub size: [u32; 2],
+    /// Array layers; the view is an array view where this is `Some`.
+    pub layers: Option<u32>,
+    /// Mip levels.
+    pub mips: u32,
+    /// Every use it will have.
+    pub uses: &'a [Use],
+}
+
+/// An image and its view over everything in it.
+pub struct Image {
+    pub(super) raw: vk::Image,
+    pub(super) view: vk::ImageView,
+    pub(super) size: [u32; 2],
+    format: vk::Format,
+    layers: u32,
+    mips: u32,
+    allocation: Option<Allocation>,
+    device: Arc<Device>,
+}
+
+impl Image {
+    /// Makes an image; its contents are undefined.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] where memory is short.
+    pub fn new(device: &Arc<Device>, description: &ImageDescription<'_>) -> Result<Self> {
+        let &ImageDescription {
+            name,
+            format,
+            size,
+            layers,
+            mips,
+            uses,
+        } = description;
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(format)
+            .extent(vk::Extent3D {
+                width: size[0],
+                height: size[1],
+                depth: 1,
+            })
+            .mip_levels(mips)
+            .array_layers(layers.unwrap_or(1))
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .tiling(vk::ImageTiling::OPTIMAL)
+            .usage(
+                uses.iter()
+                    .fold(vk::ImageUsageFlags::empty(), |flags, &used| {
+                        flags | usage(used)
+                    }),
+            );
+        // SAFETY: format and limits were checked against the device's table, sizes against the scene's.
+        let raw = unsafe { device.raw.create_image(&info, None) }.called("vkCreateImage")?;
+        let mut image = Self {
+            raw,
+            view: vk::ImageView::null(),
+            size,
+            format,
+            layers: layers.unwrap_or(1),
+            mips,
+            allocation: None,
+            device: device.clone(),
+        };
+        image.allocation = Some(device.allocate_for_image(name, raw)?);
+        let kind = if layers.is_some() {
+            vk::ImageViewType::TYPE_2D_ARRAY
+        } else {
+            vk::ImageViewType::TYPE_2D
+        };
+        let view = vk::ImageViewCreateInfo::default()
+            .image(raw)
+            .view_type(kind)
+            .format(format)
+            .subresource_range(image.everything());
+        // SAFETY: the view covers the image it is made of.
+        image.view =
+            unsafe { device.raw.create_image_view(&view, None) }.called("vkCreateImageView")?;
+        device.name(raw, name);
+        device.name(image.view, name);
+        Ok(image)
+    }
+
+    /// Texels across and down.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    fn aspect(&self) -> vk::ImageAspectFlags {
+        if self.format == vk::Format::D32_SFLOAT {
+            vk::ImageAspectFlags::DEPTH
+        } else {
+            vk::ImageAspectFlags::COLOR
+        }
+    }
+
+    fn everything(&self) -> vk::ImageSubresourceRange {
+        vk::ImageSubresourceRange {
+            aspect_mask: self.aspect(),
+            base_mip_level: 0,
+            level_count: self.mips,
+            base_array_layer: 0,
+            layer_count: self.layers,
+        }
+    }
+
+    fn region(&self, mip: u32, rows: u32, buffer_offset: u64) -> vk::BufferImageCopy {
+        vk::BufferImageCopy {
+            buffer_offset,
+            image_subresource: vk::ImageSubresourceLayers {
+                aspect_mask: self.aspect(),
+                mip_level: mip,
+                base_array_layer: 0,
+                layer_count: self.layers,
+            },
+            image_extent: vk::Extent3D {
+                width: (self.size[0] >> mip).max(1),
+                height: rows,
+                depth: 1,
+            },
+            ..vk::BufferImageCopy::default()
+        }
+    }
+
+    /// Uploads all mip levels, each level's texels row by row, and leaves the image in use `after`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn upload<T: Pod>(&self, levels: &[&[T]], after: Use) -> Result<()> {
+        let all: Vec<T> = levels.concat();
+        let mut staging = Buffer::new(&self.device, "staging", BufferUse::Upload, all.len())?;
+        staging.write(&all)?;
+        self.device.run("upload image", |cmd| {
+            cmd.transition(self, Use::Nothing, Use::TransferWrite);
+            let mut offset = 0;
+            for (mip, level) in (0_u32..).zip(levels) {
+                let region = self.region(mip, (self.size[1] >> mip).max(1), offset);
+                offset += size_of_val(*level) as u64;
+                // SAFETY: the staging buffer holds the level's texels from `offset` on.
+                unsafe {
+                    self.device.raw.cmd_copy_buffer_to_image(
+                        cmd.raw,
+                        staging.raw,
+                        self.raw,
+                        vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                        &[region],
+                    );
+                };
+            }
+            cmd.transition(self, Use::TransferWrite, after);
+            Ok(())
+        })
+    }
+
+    /// Copies the top mip level of all layers to the host, from use `before`, and back to use `after`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn fetch<T: Pod>(&self, before: Use, after: Use) -> Result<Vec<T>> {
+        let texels = self.size[0] as usize * self.size[1] as usize * self.layers as usize;
+        let staging = Buffer::<T>::new(&self.device, "readback", BufferUse::Readback, texels)?;
+        self.device.run("read image", |cmd| {
+            cmd.transition(self, before, Use::TransferRead);
+            let region = self.region(0, self.size[1], 0);
+            // SAFETY: the staging buffer holds every texel of the level; `T` is as large as the format's texel.
+            unsafe {
+                self.device.raw.cmd_copy_image_to_buffer(
+                    cmd.raw,
+                    self.raw,
+                    vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+                    staging.raw,
+                    &[region],
+                );
+            };
+            cmd.memory_barrier(Use::TransferWrite, Use::HostRead);
+            cmd.transition(self, Use::TransferRead, after);
+            Ok(())
+        })?;
+        staging.read()
+    }
+}
+
+impl Drop for Image {
+    fn drop(&mut self) {
+        // SAFETY: no work is pending outside `Device::run`; the view goes before its image.
+        unsafe { self.device.raw.destroy_image_view(self.view, None) };
+        // SAFETY: as above.
+        unsafe { self.device.raw.destroy_image(self.raw, None) };
+        if let Some(allocation) = self.allocation.take() {
+            self.device.memory.free(allocation);
+        }
+    }
+}
+
+fn usage(used: Use) -> vk::ImageUsageFlags {
+    match used {
+        Use::Nothing | Use::HostRead | Use::IndirectRead => vk::ImageUsageFlags::empty(),
+        Use::TransferWrite => vk::ImageUsageFlags::TRANSFER_DST,
+        Use::TransferRead => vk::ImageUsageFlags::TRANSFER_SRC,
+        Use::ComputeWrite => vk::ImageUsageFlags::STORAGE,
+        Use::ComputeRead | Use::FragmentRead | Use::Texture => vk::ImageUsageFlags::SAMPLED,
+        Use::DepthWrite => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+        Use::DepthRead => {
+            vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED
+        }
+        Use::ColorWrite => vk::ImageUsageFlags::COLOR_ATTACHMENT,
+        Use::InputRead => vk::ImageUsageFlags::INPUT_ATTACHMENT,
+    }
+}
+
+impl Commands {
+    /// Moves an image from one use to the next; from [`Use::Nothing`] its contents are lost.
+    pub fn transition(&mut self, image: &Image, before: Use, after: Use) {
+        let (src_stage, src_access, old) = before.scope();
+        let (dst_stage, dst_access, new) = after.scope();
+        let barrier = vk::ImageMemoryBarrier::default()
+            .src_access_mask(src_access)
+            .dst_access_mask(dst_access)
+            .old_layout(old)
+            .new_layout(new)
+            .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .image(image.raw)
+            .subresource_range(image.everything());
+        // SAFETY: the image is alive; layouts come from the table of uses.
+        unsafe {
+            self.device.raw.cmd_pipeline_barrier(
+                self.raw,
+                src_stage,
+                dst_stage,
+                vk::DependencyFlags::empty(),
+                &[],
+                &[],
+                &[barrier],
+            );
+        };
+    }
+}

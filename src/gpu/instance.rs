@@ -1,0 +1,168 @@
+//! The instance, and what the validation layers say.
+
+use super::Called;
+use crate::error::{Error, Result};
+use ash::vk;
+use std::ffi::{CStr, c_char, c_void};
+use std::sync::{Arc, Mutex, PoisonError};
+
+const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
+
+/// Messages of the validation layers, warnings and errors alike.
+#[derive(Default)]
+pub(super) struct ValidationLog(Mutex<Vec<String>>);
+
+impl ValidationLog {
+    pub(super) fn messages(&self) -> Vec<String> {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
+    }
+
+    fn push(&self, message: String) {
+        self.0
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push(message);
+    }
+}
+
+/// `VkInstance` with an optional debug messenger.
+pub(super) struct Instance {
+    pub(super) raw: ash::Instance,
+    pub(super) log: Option<Arc<ValidationLog>>,
+    pub(super) debug_utils: bool,
+    messenger: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
+    // The loader's library must outlive every handle made through it.
+    _entry: ash::Entry,
+}
+
+impl Instance {
+    /// Loads Vulkan. With `validate`, turns on the validation layers with synchronisation checks.
+    pub(super) fn new(validate: bool) -> Result<Self> {
+        // SAFETY: the loader's library is trusted to be Vulkan's; it stays loaded as long as `Instance`.
+        let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoDevice {
+            cause: format!("the Vulkan loader cannot be loaded ({error})"),
+            remedy: "run ./setup, or install libvulkan1 and a driver such as mesa-vulkan-drivers"
+                .into(),
+        })?;
+        let debug_utils = has_extension(&entry, ash::ext::debug_utils::NAME)?;
+        if validate {
+            require_validation(&entry)?;
+        }
+        let raw = create(&entry, validate, debug_utils)?;
+        let mut instance = Self {
+            raw,
+            log: None,
+            debug_utils,
+            messenger: None,
+            _entry: entry,
+        };
+        if validate {
+            instance.listen()?;
+        }
+        Ok(instance)
+    }
+
+    fn listen(&mut self) -> Result<()> {
+        let log = Arc::new(ValidationLog::default());
+        let loader = ash::ext::debug_utils::Instance::new(&self._entry, &self.raw);
+        let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
+            .message_severity(
+                vk::DebugUtilsMessageSeverityFlagsEXT::ERROR
+                    | vk::DebugUtilsMessageSeverityFlagsEXT::WARNING,
+            )
+            .message_type(
+                vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION
+                    | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
+            )
+            .pfn_user_callback(Some(on_message))
+            .user_data(Arc::as_ptr(&log).cast_mut().cast());
+        // SAFETY: the log outlives the messenger: both live in `self`, and `Drop` destroys the messenger first.
+        let messenger = unsafe { loader.create_debug_utils_messenger(&info, None) }
+            .called("vkCreateDebugUtilsMessengerEXT")?;
+        self.log = Some(log);
+        self.messenger = Some((loader, messenger));
+        Ok(())
+    }
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        if let Some((loader, messenger)) = self.messenger.take() {
+            // SAFETY: the messenger was made by this loader and is destroyed once.
+            unsafe { loader.destroy_debug_utils_messenger(messenger, None) };
+        }
+        // SAFETY: `Device` holds the instance and is gone; nothing made from it is left.
+        unsafe { self.raw.destroy_instance(None) };
+    }
+}
+
+fn create(entry: &ash::Entry, validate: bool, debug_utils: bool) -> Result<ash::Instance> {
+    let application = vk::ApplicationInfo::default()
+        .application_name(c"amas")
+        .engine_name(c"amas")
+        .api_version(vk::API_VERSION_1_2);
+    let layers = [VALIDATION_LAYER.as_ptr()];
+    let extensions = [ash::ext::debug_utils::NAME.as_ptr()];
+    let enabled = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
+    let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
+    let mut info = vk::InstanceCreateInfo::default().application_info(&application);
+    if debug_utils {
+        info = info.enabled_extension_names(&extensions);
+    }
+    if validate {
+        info = info.enabled_layer_names(&layers).push_next(&mut features);
+    }
+    // SAFETY: every pointer in `info` outlives the call; layers and extensions were found to exist.
+    unsafe { entry.create_instance(&info, None) }.map_err(|result| Error::NoDevice {
+        cause: format!("vkCreateInstance: {result:?}"),
+        remedy: "install a Vulkan 1.2 driver, such as mesa-vulkan-drivers".into(),
+    })
+}
+
+fn has_extension(entry: &ash::Entry, name: &CStr) -> Result<bool> {
+    // SAFETY: no layer name is passed; the loader fills an array that ash owns.
+    let found = unsafe { entry.enumerate_instance_extension_properties(None) }
+        .called("vkEnumerateInstanceExtensionProperties")?;
+    Ok(found
+        .iter()
+        .any(|extension| extension.extension_name_as_c_str() == Ok(name)))
+}
+
+fn require_validation(entry: &ash::Entry) -> Result<()> {
+    // SAFETY: the loader fills an array that ash owns.
+    let layers = unsafe { entry.enumerate_instance_layer_properties() }
+        .called("vkEnumerateInstanceLayerProperties")?;
+    if layers
+        .iter()
+        .any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER))
+    {
+        return Ok(());
+    }
+    Err(Error::usage(
+        "--validate needs the Vulkan validation layers, and they are not installed",
+        "run ./setup, or install vulkan-validationlayers",
+    ))
+}
+
+/// Called by the layers, on any thread.
+// SAFETY: the layers pass valid pointers for the duration of the call, and `user` is the log given at creation.
+unsafe extern "system" fn on_message(
+    _: vk::DebugUtilsMessageSeverityFlagsEXT,
+    _: vk::DebugUtilsMessageTypeFlagsEXT,
+    data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
+    user: *mut c_void,
+) -> vk::Bool32 {
+    // SAFETY: see above.
+    let log = unsafe { &*user.cast::<ValidationLog>() };
+    // SAFETY: see above; `p_message` is a terminated string.
+    let text: *const c_char = unsafe { (*data).p_message };
+    // SAFETY: see above.
+    let text = unsafe { CStr::from_ptr(text) }
+        .to_string_lossy()
+        .into_owned();
+    log.push(text);
+    vk::FALSE
+}

@@ -1,0 +1,71 @@
+//! A thin safe layer over `ash`: the only module with `unsafe`.
+//!
+//! What it promises: memory safety by types. Objects free themselves in `Drop`, buffers are typed, an image's aspect
+//! follows from its format, raw handles do not leave this module. What it does not: that the GPU has finished with an
+//! object when it is dropped, and that layouts and bounds are right. For the first, work is submitted and waited for
+//! before anything it uses can be dropped ([`Device::run`]); the second is what the validation layers check in every
+//! GPU test.
+
+mod allocation;
+mod barrier;
+mod buffer;
+mod command;
+mod descriptor;
+mod device;
+mod image;
+mod instance;
+mod pipeline;
+mod query;
+mod render_pass;
+mod requirements;
+mod sampler;
+mod shader;
+
+pub use barrier::Use;
+pub use buffer::{Buffer, BufferUse};
+pub use command::Commands;
+pub use descriptor::{DescriptorSet, DescriptorSets, PipelineLayout, SetLayout};
+pub use device::{Device, DeviceInfo, Options};
+pub use image::{Image, ImageDescription};
+pub use pipeline::{
+    Blend, ComputePipeline, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, Specialization,
+};
+pub use query::Timestamps;
+pub use render_pass::{Attachment, Framebuffer, Outside, RenderPass, Subpass};
+pub use requirements::{Check, Report};
+pub use sampler::Sampler;
+pub use shader::{Shader, Stage, shaders};
+
+pub(crate) use ash::vk::Format;
+
+use crate::error::{Error, Result};
+use ash::vk;
+
+/// A failed call as an [`Error`].
+fn failed(call: impl Into<String>, result: vk::Result) -> Error {
+    let remedy = match result {
+        vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
+            "render a smaller picture or fewer lights, or free memory"
+        }
+        vk::Result::ERROR_DEVICE_LOST => {
+            "update the driver, or choose another device with --device"
+        }
+        _ => "run again with --validate, and report what it says",
+    };
+    Error::Vulkan {
+        call: call.into(),
+        result: format!("{result:?}"),
+        remedy: remedy.into(),
+    }
+}
+
+/// Attaches the call's name to a raw result.
+trait Called<T> {
+    fn called(self, call: &str) -> Result<T>;
+}
+
+impl<T> Called<T> for Result<T, vk::Result> {
+    fn called(self, call: &str) -> Result<T> {
+        self.map_err(|result| failed(call, result))
+    }
+}

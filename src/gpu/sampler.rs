@@ -1,0 +1,51 @@
+//! The samplers of material textures.
+
+use super::Called;
+use super::device::Device;
+use crate::error::Result;
+use ash::vk;
+use std::sync::Arc;
+
+/// Trilinear, repeating, anisotropic where the device can.
+pub struct Sampler {
+    pub(super) raw: vk::Sampler,
+    device: Arc<Device>,
+}
+
+/// More taps cost more than they show.
+const ANISOTROPY: f32 = 8.0;
+
+impl Sampler {
+    /// The one sampler of material textures.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn new(device: &Arc<Device>) -> Result<Self> {
+        let mut info = vk::SamplerCreateInfo::default()
+            .mag_filter(vk::Filter::LINEAR)
+            .min_filter(vk::Filter::LINEAR)
+            .mipmap_mode(vk::SamplerMipmapMode::LINEAR)
+            .address_mode_u(vk::SamplerAddressMode::REPEAT)
+            .address_mode_v(vk::SamplerAddressMode::REPEAT)
+            .max_lod(vk::LOD_CLAMP_NONE);
+        if let Some(most) = device.max_anisotropy {
+            info = info
+                .anisotropy_enable(true)
+                .max_anisotropy(ANISOTROPY.min(most));
+        }
+        // SAFETY: anisotropy is on only where the feature is.
+        let raw = unsafe { device.raw.create_sampler(&info, None) }.called("vkCreateSampler")?;
+        device.name(raw, "trilinear repeat");
+        Ok(Self {
+            raw,
+            device: device.clone(),
+        })
+    }
+}
+
+impl Drop for Sampler {
+    fn drop(&mut self) {
+        // SAFETY: no work is pending outside `Device::run`.
+        unsafe { self.device.raw.destroy_sampler(self.raw, None) };
+    }
+}

@@ -1,0 +1,313 @@
+//! A scene on the device: triangles sorted by what draws them, materials, textures, lights.
+
+mod textures;
+
+use crate::error::{Error, Result};
+use crate::gpu::{
+    Buffer, BufferUse, Cull, DescriptorSets, Device, Format, Image, ImageDescription,
+    PipelineLayout, Specialization, Use,
+};
+use crate::light_tree::LightTree;
+use crate::scene::material::PARAMETER_COUNT;
+use crate::scene::{Material, Model, Parameter, PointLight, Scene, Vertex};
+use crate::shared::{self, LightNode, MaterialRecord};
+use std::sync::Arc;
+use textures::Textures;
+
+/// How a material is drawn: everything its pipelines are specialised by.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Variant {
+    /// Whether the prepass tests the material's mask.
+    pub masked: bool,
+    /// Whether back faces are drawn.
+    pub two_sided: bool,
+    /// BSDF model, lobes and texture slots.
+    pub specialization: Specialization,
+}
+
+impl Variant {
+    /// Faces to drop.
+    #[must_use]
+    pub fn cull(&self) -> Cull {
+        if self.two_sided {
+            Cull::None
+        } else {
+            Cull::Back
+        }
+    }
+}
+
+/// A run of triangles of one material.
+#[derive(Clone, Copy, Debug)]
+pub struct Draw {
+    /// Index into [`GpuScene::variants`].
+    pub variant: usize,
+    /// Index of the material.
+    pub material: u32,
+    /// First triangle.
+    pub first: u32,
+    /// Triangles.
+    pub count: u32,
+}
+
+/// A scene's buffers and sets.
+pub struct GpuScene {
+    /// Set 1.
+    pub set: DescriptorSets,
+    /// Set 2 of each material.
+    pub materials: DescriptorSets,
+    /// All vertices.
+    pub vertices: Buffer<Vertex>,
+    /// All triangles.
+    pub triangles: Buffer<[u32; 3]>,
+    /// Sorted by variant.
+    pub draws: Vec<Draw>,
+    /// Distinct variants, sorted.
+    pub variants: Vec<Variant>,
+    /// Point lights in device order.
+    pub lights: LightTree,
+    /// Lower and upper corner of all triangles; `None` without any.
+    pub bounds: Option<[glam::DVec3; 2]>,
+    /// Layout that every pipeline of the frame shares.
+    pub layout: Arc<PipelineLayout>,
+    // What the sets refer to.
+    _textures: Textures,
+    _records: Buffer<MaterialRecord>,
+    _nodes: Buffer<LightNode>,
+    _light_image: Image,
+}
+
+impl GpuScene {
+    /// Uploads a scene.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for what is not supported yet, [`Error::Vulkan`] where memory is short.
+    pub fn new(device: &Arc<Device>, scene: &Scene) -> Result<Self> {
+        reject_unsupported(scene)?;
+        let layout = Arc::new(PipelineLayout::new(
+            device,
+            &[
+                shared::frame::BINDINGS,
+                shared::scene::BINDINGS,
+                shared::material::BINDINGS,
+            ],
+        )?);
+        let (variants, variant_of) = variants(scene)?;
+        let (vertices, triangles, draws) = geometry(scene, &variant_of);
+        let lights = LightTree::new(&scene.point_lights);
+        let light_image = light_image(device, &lights.lights)?;
+        let nodes = Buffer::with(device, "light tree", BufferUse::Storage, &lights.nodes)?;
+        let records: Vec<_> = scene.materials.iter().map(record).collect();
+        let records = Buffer::with(device, "materials", BufferUse::Storage, &records)?;
+        let set = layout.allocate(shared::scene::SET, 1)?;
+        set.get(0)
+            .image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
+        set.get(0).buffer(shared::scene::SCENE_LIGHT_NODES, &nodes);
+        set.get(0).buffer(shared::scene::SCENE_MATERIALS, &records);
+        let textures = Textures::new(device, scene)?;
+        let materials = textures.bind(&layout, scene)?;
+        Ok(Self {
+            set,
+            materials,
+            vertices: Buffer::with(device, "vertices", BufferUse::Vertex, &vertices)?,
+            triangles: Buffer::with(device, "triangles", BufferUse::Index, &triangles)?,
+            draws,
+            variants,
+            bounds: bounds(&vertices),
+            lights,
+            layout,
+            _textures: textures,
+            _records: records,
+            _nodes: nodes,
+            _light_image: light_image,
+        })
+    }
+}
+
+fn reject_unsupported(scene: &Scene) -> Result<()> {
+    let unsupported = [
+        (
+            !scene.area_lights.is_empty(),
+            "area lights",
+            "remove the area lights, or use `amas reference`",
+        ),
+        (
+            scene.render.vpls > 0,
+            "indirect light",
+            "set indirect.vpls = 0",
+        ),
+        (scene.render.shadows, "shadows", "set shadows = false"),
+    ];
+    match unsupported.into_iter().find(|(used, ..)| *used) {
+        Some((_, what, remedy)) => Err(Error::usage(
+            format!("{what}: not supported yet by the renderer"),
+            remedy,
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Distinct variants, and each material's index among them.
+fn variants(scene: &Scene) -> Result<(Vec<Variant>, Vec<usize>)> {
+    let of_material: Vec<_> = scene.materials.iter().map(variant).collect::<Result<_>>()?;
+    let mut distinct = of_material.clone();
+    distinct.sort();
+    distinct.dedup();
+    let index = of_material
+        .iter()
+        .map(|variant| distinct.binary_search(variant).unwrap_or(0))
+        .collect();
+    Ok((distinct, index))
+}
+
+fn variant(material: &Material) -> Result<Variant> {
+    let used = |parameter| {
+        let value = material.value(parameter);
+        u32::from(value.texture.is_some() || value.constant[0] > 0.0)
+    };
+    let aspect = material.value(Parameter::Aspect);
+    let anisotropic = material.model != Model::Matte
+        && material.model != Model::Plastic
+        && (aspect.texture.is_some() || (aspect.constant[0] - 1.0).abs() > 1e-6);
+    let mut specialization = Specialization::default()
+        .with(shared::SPEC_MODEL, material.model as u32)
+        .with(shared::SPEC_ANISOTROPIC, u32::from(anisotropic))
+        .with(
+            shared::SPEC_SQUARED_ROUGHNESS,
+            u32::from(material.squared_roughness),
+        )
+        .with(shared::SPEC_ROUGH_MATTE, used(Parameter::Sigma))
+        .with(shared::SPEC_LOBE_SHEEN, used(Parameter::Sheen))
+        .with(shared::SPEC_LOBE_CLEARCOAT, used(Parameter::Clearcoat))
+        .with(shared::SPEC_LOBE_SUBSURFACE, used(Parameter::Subsurface))
+        .with(shared::SPEC_LOBE_METALLIC, used(Parameter::Metallic))
+        .with(shared::SPEC_TWO_SIDED, u32::from(material.two_sided));
+    let slots = slots(material);
+    if slots
+        .iter()
+        .flatten()
+        .any(|&slot| slot >= shared::MATERIAL_TEXTURES)
+    {
+        return Err(Error::usage(
+            format!(
+                "material {:?} uses more than {} textures",
+                material.name,
+                shared::MATERIAL_TEXTURES
+            ),
+            "give some of its parameters constants",
+        ));
+    }
+    for (id, slot) in (shared::SPEC_SLOT..).zip(slots) {
+        if let Some(slot) = slot {
+            specialization = specialization.with(id, slot);
+        }
+    }
+    Ok(Variant {
+        masked: material.value(Parameter::Mask).texture.is_some(),
+        two_sided: material.two_sided,
+        specialization,
+    })
+}
+
+/// Texture slot of each parameter: textured parameters take slots in order.
+fn slots(material: &Material) -> [Option<u32>; PARAMETER_COUNT] {
+    let mut next = 0;
+    material.parameters.map(|value| {
+        value.texture.map(|_| {
+            next += 1;
+            next - 1
+        })
+    })
+}
+
+fn record(material: &Material) -> MaterialRecord {
+    MaterialRecord {
+        rows: material
+            .parameters
+            .map(|value| [value.constant[0], value.constant[1], value.constant[2], 0.0]),
+    }
+}
+
+/// All triangles in one buffer, sorted by variant and material, so that pipelines change as rarely as they can.
+fn geometry(scene: &Scene, variant_of: &[usize]) -> (Vec<Vertex>, Vec<[u32; 3]>, Vec<Draw>) {
+    let mut order: Vec<_> = scene
+        .meshes
+        .iter()
+        .filter(|mesh| !mesh.triangles.is_empty())
+        .collect();
+    order.sort_by_key(|mesh| (variant_of[mesh.material as usize], mesh.material));
+    let mut vertices = Vec::new();
+    let mut triangles = Vec::new();
+    let mut draws: Vec<Draw> = Vec::new();
+    for mesh in order {
+        let base = vertices.len() as u32;
+        let first = triangles.len() as u32;
+        let count = mesh.triangles.len() as u32;
+        vertices.extend_from_slice(&mesh.vertices);
+        triangles.extend(
+            mesh.triangles
+                .iter()
+                .map(|triangle| triangle.map(|index| index + base)),
+        );
+        match draws.last_mut() {
+            Some(draw) if draw.material == mesh.material => draw.count += count,
+            _ => draws.push(Draw {
+                variant: variant_of[mesh.material as usize],
+                material: mesh.material,
+                first,
+                count,
+            }),
+        }
+    }
+    (vertices, triangles, draws)
+}
+
+fn bounds(vertices: &[Vertex]) -> Option<[glam::DVec3; 2]> {
+    let place = |vertex: &Vertex| glam::Vec3::from(vertex.position).as_dvec3();
+    let first = place(vertices.first()?);
+    Some(vertices.iter().fold([first; 2], |[lower, upper], vertex| {
+        [lower.min(place(vertex)), upper.max(place(vertex))]
+    }))
+}
+
+/// Lights as two RGBA32F texels each, with the null light behind them: the padding of the lists.
+fn light_image(device: &Arc<Device>, lights: &[PointLight]) -> Result<Image> {
+    let null = PointLight {
+        position: glam::Vec3::ZERO,
+        intensity: glam::Vec3::ZERO,
+        range: None,
+    };
+    let row = shared::LIGHTS_PER_ROW as usize;
+    let rows = (lights.len() + 1).div_ceil(row);
+    let layer_rows = 1 << shared::LIGHT_ROWS_LOG2;
+    let layers = rows.div_ceil(layer_rows);
+    let height = if layers > 1 { layer_rows } else { rows };
+    let mut texels: Vec<[f32; 4]> = lights
+        .iter()
+        .chain([&null])
+        .flat_map(light_texels)
+        .collect();
+    texels.resize(layers * height * row * 2, [0.0; 4]);
+    let image = Image::new(
+        device,
+        &ImageDescription {
+            name: "lights",
+            format: Format::R32G32B32A32_SFLOAT,
+            size: [2 * shared::LIGHTS_PER_ROW, height as u32],
+            layers: Some(layers as u32),
+            mips: 1,
+            uses: &[Use::TransferWrite, Use::Texture],
+        },
+    )?;
+    image.upload(&[&texels], Use::Texture)?;
+    Ok(image)
+}
+
+fn light_texels(light: &PointLight) -> [[f32; 4]; 2] {
+    let (inverse_range2, floor) = match light.range {
+        Some(range) => (1.0 / (range * range), 1e-4),
+        None => (0.0, 1e-12),
+    };
+    let (p, i) = (light.position, light.intensity);
+    [[p.x, p.y, p.z, inverse_range2], [i.x, i.y, i.z, floor]]
+}

@@ -1,0 +1,182 @@
+//! Textures on the device, with mip chains made in linear light.
+
+use crate::error::Result;
+use crate::gpu::{
+    DescriptorSets, Device, Format, Image, ImageDescription, PipelineLayout, Sampler, Use,
+};
+use crate::scene::{Scene, Texels, Texture};
+use crate::shared;
+use half::f16;
+use std::sync::Arc;
+
+/// A scene's textures, the white texel of unused slots, and the sampler.
+pub(super) struct Textures {
+    images: Vec<Image>,
+    white: Image,
+    sampler: Sampler,
+}
+
+impl Textures {
+    pub(super) fn new(device: &Arc<Device>, scene: &Scene) -> Result<Self> {
+        let white = Texture {
+            name: "white".into(),
+            width: 1,
+            height: 1,
+            texels: Texels::Linear8(vec![[255; 4]]),
+        };
+        Ok(Self {
+            images: scene
+                .textures
+                .iter()
+                .map(|texture| upload(device, texture))
+                .collect::<Result<_>>()?,
+            white: upload(device, &white)?,
+            sampler: Sampler::new(device)?,
+        })
+    }
+
+    /// One set per material, its textures in the order of its parameters.
+    pub(super) fn bind(&self, layout: &PipelineLayout, scene: &Scene) -> Result<DescriptorSets> {
+        let sets = layout.allocate(shared::material::SET, scene.materials.len() as u32)?;
+        for (index, material) in scene.materials.iter().enumerate() {
+            let mut slots: Vec<&Image> = material
+                .parameters
+                .iter()
+                .filter_map(|value| value.texture)
+                .map(|i| &self.images[i as usize])
+                .collect();
+            slots.resize(shared::MATERIAL_TEXTURES as usize, &self.white);
+            sets.get(index)
+                .textures(shared::material::MATERIAL_SLOTS, &slots, &self.sampler);
+        }
+        Ok(sets)
+    }
+}
+
+fn upload(device: &Arc<Device>, texture: &Texture) -> Result<Image> {
+    let size = [texture.width, texture.height];
+    let mips = u32::BITS - size[0].max(size[1]).leading_zeros();
+    let format = match texture.texels {
+        Texels::Srgb8(_) => Format::R8G8B8A8_SRGB,
+        Texels::Linear8(_) => Format::R8G8B8A8_UNORM,
+        Texels::Float(_) => Format::R16G16B16A16_SFLOAT,
+    };
+    let uses = &[Use::TransferWrite, Use::Texture];
+    let image = Image::new(
+        device,
+        &ImageDescription {
+            name: &texture.name,
+            format,
+            size,
+            layers: None,
+            mips,
+            uses,
+        },
+    )?;
+    let levels = mip_chain(linear(&texture.texels), size, mips);
+    match &texture.texels {
+        Texels::Srgb8(_) => upload_levels(&image, &levels, |texel| {
+            let [r, g, b, a] = texel;
+            [encode(r), encode(g), encode(b), quantise(a)]
+        })?,
+        Texels::Linear8(_) => upload_levels(&image, &levels, |texel| texel.map(quantise))?,
+        // Beyond half's range a texel would become infinite.
+        Texels::Float(_) => {
+            let most = f16::MAX.to_f32();
+            upload_levels(&image, &levels, |texel| {
+                texel.map(|v| f16::from_f32(v.clamp(-most, most)))
+            })?;
+        }
+    }
+    Ok(image)
+}
+
+fn upload_levels<T: bytemuck::Pod>(
+    image: &Image,
+    levels: &[Vec<[f32; 4]>],
+    encode: impl Fn([f32; 4]) -> T,
+) -> Result<()> {
+    let encoded: Vec<Vec<T>> = levels
+        .iter()
+        .map(|level| level.iter().map(|&texel| encode(texel)).collect())
+        .collect();
+    let slices: Vec<&[T]> = encoded.iter().map(Vec::as_slice).collect();
+    image.upload(&slices, Use::Texture)
+}
+
+fn linear(texels: &Texels) -> Vec<[f32; 4]> {
+    let unit = |byte: u8| f32::from(byte) / 255.0;
+    match texels {
+        Texels::Srgb8(texels) => texels
+            .iter()
+            .map(|&[r, g, b, a]| [decode(unit(r)), decode(unit(g)), decode(unit(b)), unit(a)])
+            .collect(),
+        Texels::Linear8(texels) => texels.iter().map(|texel| texel.map(unit)).collect(),
+        Texels::Float(texels) => texels.clone(),
+    }
+}
+
+/// Each level is the box filter of the one above; the last row or column of an odd level counts twice.
+fn mip_chain(top: Vec<[f32; 4]>, size: [u32; 2], mips: u32) -> Vec<Vec<[f32; 4]>> {
+    let mut levels = vec![top];
+    let mut from = size.map(|side| side as usize);
+    for _ in 1..mips {
+        let to = from.map(|side| (side / 2).max(1));
+        let above = &levels[levels.len() - 1];
+        let at = |x: usize, y: usize| above[y.min(from[1] - 1) * from[0] + x.min(from[0] - 1)];
+        let level = (0..to[0] * to[1])
+            .map(|i| {
+                let (x, y) = (2 * (i % to[0]), 2 * (i / to[0]));
+                let four = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
+                std::array::from_fn(|c| four.iter().map(|texel| texel[c]).sum::<f32>() / 4.0)
+            })
+            .collect();
+        levels.push(level);
+        from = to;
+    }
+    levels
+}
+
+fn decode(v: f32) -> f32 {
+    if v <= 0.04045 {
+        v / 12.92
+    } else {
+        ((v + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+fn encode(v: f32) -> u8 {
+    quantise(if v <= 0.003_130_8 {
+        12.92 * v
+    } else {
+        1.055 * v.powf(1.0 / 2.4) - 0.055
+    })
+}
+
+fn quantise(v: f32) -> u8 {
+    (v * 255.0).round().clamp(0.0, 255.0) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chain_keeps_the_mean_and_the_encoding_survives() {
+        let top: Vec<[f32; 4]> = (0..64).map(|i| [i as f32 / 63.0; 4]).collect();
+        let levels = mip_chain(top, [8, 8], 4);
+        assert_eq!(
+            levels.iter().map(Vec::len).collect::<Vec<_>>(),
+            [64, 16, 4, 1]
+        );
+        assert!((levels[3][0][0] - 0.5).abs() < 1e-6);
+        assert!((0..=255_u8).all(|byte| encode(decode(f32::from(byte) / 255.0)) == byte));
+    }
+
+    #[test]
+    fn odd_and_thin_images_shrink_to_one_texel() {
+        let levels = mip_chain(vec![[0.25; 4]; 15], [5, 3], 3);
+        assert_eq!(levels.iter().map(Vec::len).collect::<Vec<_>>(), [15, 2, 1]);
+        assert_eq!(levels[2][0], [0.25; 4]);
+    }
+}

@@ -1,0 +1,115 @@
+//! Arbitrary output variables: one quantity of the visible surface per pixel, in an image of its own.
+//!
+//! Recorded only when asked for, after the frame, against the frame's depth.
+
+use super::{PassInputs, SurfacePipelines};
+use crate::error::Result;
+use crate::gpu::{
+    Attachment, Blend, Commands, DescriptorSet, Framebuffer, Image, ImageDescription, Outside,
+    RenderPass, Subpass, Use, shaders,
+};
+use crate::gpu_scene::GpuScene;
+use crate::shared;
+use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
+
+/// What the variable is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Quantity {
+    /// World position.
+    Position = shared::AOV_POSITION,
+    /// Shading normal, turned to the viewer.
+    Normal = shared::AOV_NORMAL,
+    /// Index of the material.
+    Material = shared::AOV_MATERIAL,
+    /// Lights evaluated.
+    LightCount = shared::AOV_LIGHT_COUNT,
+    /// How often the pixel is shaded.
+    Coverage = shared::AOV_COVERAGE,
+}
+
+/// One variable's pass.
+pub struct Aov {
+    pass: RenderPass,
+    framebuffer: Framebuffer,
+    pipelines: SurfacePipelines,
+    image: Image,
+}
+
+impl Aov {
+    /// Makes image, pass and pipelines.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn new(inputs: &PassInputs<'_>, targets: &Targets, quantity: Quantity) -> Result<Self> {
+        let image = Image::new(
+            inputs.device,
+            &ImageDescription {
+                name: "aov",
+                format: HDR_FORMAT,
+                size: targets.depth.size(),
+                layers: None,
+                mips: 1,
+                uses: &[Use::ColorWrite, Use::TransferRead],
+            },
+        )?;
+        let pass = RenderPass::new(
+            inputs.device,
+            "aov",
+            &[
+                Attachment {
+                    format: HDR_FORMAT,
+                    before: Use::Nothing,
+                    after: Use::TransferRead,
+                },
+                Attachment {
+                    format: DEPTH_FORMAT,
+                    before: Use::DepthRead,
+                    after: Use::DepthRead,
+                },
+            ],
+            &[Subpass {
+                color: &[0],
+                input: &[],
+                depth: Some((1, Use::DepthRead)),
+            }],
+            &[],
+            &[
+                Outside::Before(Use::ComputeWrite, Use::FragmentRead),
+                Outside::After(Use::ColorWrite, Use::TransferRead),
+            ],
+        )?;
+        let framebuffer = Framebuffer::new(inputs.device, &pass, &[&image, &targets.depth])?;
+        let blend = if quantity == Quantity::Coverage {
+            Blend::Add
+        } else {
+            Blend::Replace
+        };
+        let extra = [(shared::SPEC_AOV, quantity as u32)];
+        let pipelines =
+            SurfacePipelines::new(inputs, shaders::AOV_AOV_FRAG, &extra, blend, (&pass, 0))?;
+        Ok(Self {
+            pass,
+            framebuffer,
+            pipelines,
+            image,
+        })
+    }
+
+    /// Draws the variable.
+    pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
+        cmd.labelled("aov", |cmd| {
+            cmd.begin_pass(&self.pass, &self.framebuffer);
+            self.pipelines.draw(cmd, scene, frame);
+            cmd.end_pass();
+        });
+    }
+
+    /// The values, four a pixel; the fourth is 1 where a surface is.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn fetch(&self) -> Result<Vec<[f32; 4]>> {
+        self.image.fetch(Use::TransferRead, Use::TransferRead)
+    }
+}

@@ -1,0 +1,191 @@
+//! Compute: from depth to the light list of each occupied cluster.
+//!
+//! 1. `slices`: which depth slices each tile's pixels lie in.
+//! 2. `scan_tiles`: ids for the occupied (tile, slice) pairs, the clusters.
+//! 3. `bounds`: each pixel's cluster id; each cluster's box of samples.
+//! 4. `count`: lights that reach each cluster, by a walk over the light tree.
+//! 5. `scan_lists`: where each list lies.
+//! 6. `write`: the lists, in Hilbert order, four indices a texel.
+//!
+//! Ids and lists come from scans, never from atomics, so they are the same on every run. The pass is recorded only
+//! where the scene has lights with a range.
+
+use super::PassInputs;
+use crate::error::Result;
+use crate::gpu::{
+    Buffer, BufferUse, Commands, ComputePipeline, DescriptorSet, Device, Format, Image,
+    ImageDescription, Specialization, Use, shaders,
+};
+use crate::gpu_scene::GpuScene;
+use crate::shared::{self, Cluster, Counters, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, Tile};
+use std::sync::Arc;
+
+/// Room for clusters and list texels; grows when a frame needs more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Capacity {
+    /// Clusters.
+    pub clusters: u32,
+    /// Texels of lists.
+    pub texels: u32,
+}
+
+impl Capacity {
+    /// What a picture of so many tiles starts with: two depth layers, 64 lights in each.
+    #[must_use]
+    pub fn start(tiles: u32) -> Self {
+        Self {
+            clusters: tiles.max(32) * 2,
+            texels: 0,
+        }
+        .with_texels(tiles * 32)
+    }
+
+    /// Whole layers of the list image.
+    fn with_texels(self, texels: u32) -> Self {
+        let layer = 1 << (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2);
+        Self {
+            texels: texels.div_ceil(layer).max(1) * layer,
+            ..self
+        }
+    }
+
+    /// Enough for what the counters ask for; `None` if it is so already.
+    #[must_use]
+    pub fn grown(self, counters: &Counters) -> Option<Self> {
+        // Where clusters were missing, so were their lists: the texels needed are known only next time.
+        let clusters = counters.clusters.max(self.clusters);
+        let larger = Self { clusters, ..self }.with_texels(counters.list_texels.max(self.texels));
+        (larger != self).then_some(larger)
+    }
+}
+
+/// What the pass writes.
+pub struct ClusterTargets {
+    /// How much fits.
+    pub capacity: Capacity,
+    /// Slices of each tile.
+    pub tiles: Buffer<Tile>,
+    /// Boxes and lists of clusters.
+    pub clusters: Buffer<Cluster>,
+    /// Sums.
+    pub counters: Buffer<Counters>,
+    /// The lists.
+    pub lists: Image,
+}
+
+impl ClusterTargets {
+    /// Makes the buffers, and leaves the lists ready to be written.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] where memory is short.
+    pub fn new(device: &Arc<Device>, tiles: u32, capacity: Capacity) -> Result<Self> {
+        let layers = capacity.texels >> (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2);
+        let lists = Image::new(
+            device,
+            &ImageDescription {
+                name: "light lists",
+                format: Format::R32G32B32A32_UINT,
+                size: [1 << LIST_WIDTH_LOG2, 1 << LIST_HEIGHT_LOG2],
+                layers: Some(layers),
+                mips: 1,
+                uses: &[Use::ComputeWrite, Use::FragmentRead, Use::TransferRead],
+            },
+        )?;
+        device.run("prepare light lists", |cmd| {
+            cmd.transition(&lists, Use::Nothing, Use::FragmentRead);
+            Ok(())
+        })?;
+        Ok(Self {
+            capacity,
+            tiles: Buffer::new(device, "tiles", BufferUse::Storage, tiles as usize)?,
+            clusters: Buffer::new(
+                device,
+                "clusters",
+                BufferUse::Storage,
+                capacity.clusters as usize,
+            )?,
+            counters: Buffer::new(device, "cluster counters", BufferUse::Storage, 1)?,
+            lists,
+        })
+    }
+
+    /// Puts the buffers into the frame's set.
+    pub fn bind(&self, frame: DescriptorSet<'_>) {
+        frame.buffer(shared::frame::FRAME_TILES, &self.tiles);
+        frame.buffer(shared::frame::FRAME_CLUSTERS, &self.clusters);
+        frame.buffer(shared::frame::FRAME_COUNTERS, &self.counters);
+        frame.image(
+            shared::frame::FRAME_LISTS_OUT,
+            &self.lists,
+            Use::ComputeWrite,
+        );
+        frame.image(shared::frame::FRAME_LISTS, &self.lists, Use::FragmentRead);
+    }
+}
+
+/// The pass's pipelines.
+pub struct ClusterPass {
+    slices: ComputePipeline,
+    scan_tiles: ComputePipeline,
+    bounds: ComputePipeline,
+    count: ComputePipeline,
+    scan_lists: ComputePipeline,
+    write: ComputePipeline,
+}
+
+impl ClusterPass {
+    /// Compiles the six steps.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn new(inputs: &PassInputs<'_>) -> Result<Self> {
+        let step = |shader| {
+            ComputePipeline::new(
+                inputs.device,
+                &inputs.scene.layout,
+                shader,
+                &Specialization::default(),
+            )
+        };
+        Ok(Self {
+            slices: step(shaders::CLUSTER_SLICES_COMP)?,
+            scan_tiles: step(shaders::CLUSTER_SCAN_TILES_COMP)?,
+            bounds: step(shaders::CLUSTER_BOUNDS_COMP)?,
+            count: step(shaders::CLUSTER_COUNT_COMP)?,
+            scan_lists: step(shaders::CLUSTER_SCAN_LISTS_COMP)?,
+            write: step(shaders::CLUSTER_WRITE_COMP)?,
+        })
+    }
+
+    /// Records the six steps, with what each hands to the next.
+    pub fn record(
+        &self,
+        cmd: &mut Commands,
+        scene: &GpuScene,
+        frame: DescriptorSet<'_>,
+        targets: &ClusterTargets,
+        tiles: [u32; 2],
+    ) {
+        let sets = [frame, scene.set.get(0)];
+        let tiles = [tiles[0], tiles[1], 1];
+        cmd.labelled("cluster", |cmd| {
+            cmd.bind_compute(&self.slices, &sets);
+            cmd.dispatch(tiles);
+            cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
+            cmd.bind_compute(&self.scan_tiles, &sets);
+            cmd.dispatch([1, 1, 1]);
+            cmd.memory_barrier(Use::ComputeWrite, Use::IndirectRead);
+            cmd.bind_compute(&self.bounds, &sets);
+            cmd.dispatch(tiles);
+            cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
+            cmd.bind_compute(&self.count, &sets);
+            cmd.dispatch_indirect(&targets.counters);
+            cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
+            cmd.bind_compute(&self.scan_lists, &sets);
+            cmd.dispatch([1, 1, 1]);
+            cmd.memory_barrier(Use::ComputeWrite, Use::ComputeRead);
+            cmd.bind_compute(&self.write, &sets);
+            cmd.dispatch_indirect(&targets.counters);
+        });
+    }
+}

@@ -1,0 +1,65 @@
+//! Subpass *direct*: the background, and the lights that every pixel evaluates one by one.
+//!
+//! Today these are the point lights without a range: they reach everything, so a list would only repeat them.
+
+use super::forward::Work;
+use super::{PassInputs, SurfacePipelines};
+use crate::error::Result;
+use crate::gpu::{
+    Blend, Commands, Cull, DepthTest, DescriptorSet, GraphicsDescription, GraphicsPipeline,
+    RenderPass, Specialization, shaders,
+};
+use crate::gpu_scene::GpuScene;
+use crate::shared;
+
+/// Pipelines of the subpass; absent where the scene has no use for them.
+pub struct Direct {
+    unranged: Option<SurfacePipelines>,
+    background: Option<GraphicsPipeline>,
+}
+
+impl Direct {
+    /// Makes what the scene needs.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn new(inputs: &PassInputs<'_>, work: Work, at: (&RenderPass, u32)) -> Result<Self> {
+        let unranged =
+            || SurfacePipelines::new(inputs, shaders::DIRECT_UNRANGED_FRAG, &[], Blend::Add, at);
+        let background = || {
+            GraphicsPipeline::new(
+                inputs.device,
+                &inputs.scene.layout,
+                &GraphicsDescription {
+                    name: "background",
+                    vertex: shaders::PRESENT_FULLSCREEN_VERT,
+                    fragment: Some(shaders::DIRECT_BACKGROUND_FRAG),
+                    specialization: &Specialization::default(),
+                    vertices: false,
+                    // The triangle lies at depth 0: it passes where the prepass left none.
+                    depth: DepthTest::Equal,
+                    blend: Some(Blend::Add),
+                    cull: Cull::None,
+                    pass: at.0,
+                    subpass: at.1,
+                },
+            )
+        };
+        Ok(Self {
+            unranged: work.unranged.then(unranged).transpose()?,
+            background: work.background.then(background).transpose()?,
+        })
+    }
+
+    /// Draws background and unranged lights.
+    pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
+        if let Some(background) = &self.background {
+            cmd.bind_graphics(background);
+            cmd.bind_sets(shared::frame::SET, &[frame]);
+            cmd.draw_fullscreen();
+        }
+        if let Some(unranged) = &self.unranged {
+            unranged.draw(cmd, scene, frame);
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! The forward render pass: subpasses *direct*, *indirect* (only where the scene has lights with a range), *present*.
+//!
+//! Reads depth and light lists; adds radiance to the HDR image and writes the display-referred picture.
+
+use super::PassInputs;
+use super::direct::Direct;
+use super::indirect::Indirect;
+use super::present::Present;
+use crate::error::Result;
+use crate::gpu::{
+    Attachment, Commands, DescriptorSet, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use,
+};
+use crate::gpu_scene::GpuScene;
+use crate::scene::settings::Tonemap;
+use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, LDR_FORMAT, Targets};
+
+const HDR: u32 = 0;
+const LDR: u32 = 1;
+const DEPTH: u32 = 2;
+
+/// What the forward pass has to do for a scene; nothing else is compiled or recorded.
+#[derive(Clone, Copy, Debug)]
+pub struct Work {
+    /// Point lights evaluated one by one.
+    pub unranged: bool,
+    /// Radiance where no surface is.
+    pub background: bool,
+    /// Lights in lists.
+    pub clustered: bool,
+    /// Tone curve.
+    pub tonemap: Tonemap,
+}
+
+/// The forward pass.
+pub struct Forward {
+    // First sample: clears. Later samples: adds to what is there. Compatible, so pipelines serve both.
+    first: RenderPass,
+    further: RenderPass,
+    framebuffer: Framebuffer,
+    direct: Direct,
+    indirect: Option<Indirect>,
+    present: Present,
+}
+
+impl Forward {
+    /// Makes the pass and its subpasses.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn new(inputs: &PassInputs<'_>, targets: &Targets, work: Work) -> Result<Self> {
+        let first = render_pass(inputs, work, Use::Nothing)?;
+        let further = render_pass(inputs, work, Use::TransferRead)?;
+        let framebuffer = Framebuffer::new(
+            inputs.device,
+            &first,
+            &[&targets.hdr, &targets.ldr, &targets.depth],
+        )?;
+        let indirect = work
+            .clustered
+            .then(|| Indirect::new(inputs, (&first, 1)))
+            .transpose()?;
+        let last = if work.clustered { 2 } else { 1 };
+        Ok(Self {
+            direct: Direct::new(inputs, work, (&first, 0))?,
+            indirect,
+            present: Present::new(inputs, work.tonemap, (&first, last))?,
+            first,
+            further,
+            framebuffer,
+        })
+    }
+
+    /// Adds one sample's radiance; the picture is the sum times `scale`. Timestamp `stamp` and those behind it follow
+    /// each subpass.
+    pub fn record(
+        &self,
+        cmd: &mut Commands,
+        scene: &GpuScene,
+        frame: DescriptorSet<'_>,
+        sample: Sample,
+        timestamps: (&Timestamps, u32),
+    ) {
+        let (timestamps, mut stamp) = timestamps;
+        let mut done = |cmd: &mut Commands| {
+            cmd.timestamp(timestamps, stamp);
+            stamp += 1;
+        };
+        cmd.begin_pass(
+            if sample.first {
+                &self.first
+            } else {
+                &self.further
+            },
+            &self.framebuffer,
+        );
+        cmd.labelled("direct", |cmd| self.direct.record(cmd, scene, frame));
+        done(cmd);
+        if let Some(indirect) = &self.indirect {
+            cmd.next_subpass();
+            cmd.labelled("indirect", |cmd| indirect.record(cmd, scene, frame));
+            done(cmd);
+        }
+        cmd.next_subpass();
+        cmd.labelled("present", |cmd| {
+            self.present.record(cmd, frame, sample.scale)
+        });
+        cmd.end_pass();
+        done(cmd);
+    }
+}
+
+/// Which sample of a picture is rendered.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Clears what was there.
+    pub first: bool,
+    /// Factor on the sum: exposure over the number of samples so far.
+    pub scale: f32,
+}
+
+fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<RenderPass> {
+    let shading = Subpass {
+        color: &[HDR],
+        input: &[],
+        depth: Some((DEPTH, Use::DepthRead)),
+    };
+    let present = Subpass {
+        color: &[LDR],
+        input: &[HDR],
+        depth: None,
+    };
+    let mut subpasses = vec![shading];
+    let mut inside = Vec::new();
+    if work.clustered {
+        subpasses.push(shading);
+        inside.push((Use::ColorWrite, Use::ColorWrite));
+    }
+    subpasses.push(present);
+    inside.push((Use::ColorWrite, Use::InputRead));
+    RenderPass::new(
+        inputs.device,
+        "forward",
+        &[
+            Attachment {
+                format: HDR_FORMAT,
+                before: hdr_before,
+                after: Use::TransferRead,
+            },
+            Attachment {
+                format: LDR_FORMAT,
+                before: Use::Nothing,
+                after: Use::TransferRead,
+            },
+            Attachment {
+                format: DEPTH_FORMAT,
+                before: Use::DepthRead,
+                after: Use::DepthRead,
+            },
+        ],
+        &subpasses,
+        &inside,
+        &[
+            Outside::Before(Use::TransferRead, Use::ColorWrite),
+            Outside::Before(Use::DepthWrite, Use::DepthRead),
+            Outside::After(Use::ColorWrite, Use::TransferRead),
+        ],
+    )
+}

@@ -1,0 +1,71 @@
+//! Accounting: pairs of pixel and light, evaluated and useful. Outside the frame, only for reports and benchmarks.
+
+use crate::error::Result;
+use crate::gpu::{
+    Buffer, BufferUse, ComputePipeline, DescriptorSet, Device, Specialization, Use, shaders,
+};
+use crate::gpu_scene::GpuScene;
+use crate::shared::{self, TilePairs};
+use std::sync::Arc;
+
+/// Pairs of a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PairCount {
+    /// Evaluated by the shading.
+    pub evaluated: u64,
+    /// Within the light's range.
+    pub useful: u64,
+}
+
+/// The counting pipeline and its buffer.
+pub struct PairPass {
+    pipeline: ComputePipeline,
+    tiles: Buffer<TilePairs>,
+}
+
+impl PairPass {
+    /// For a picture of so many tiles.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn new(device: &Arc<Device>, scene: &GpuScene, tiles: u32) -> Result<Self> {
+        Ok(Self {
+            pipeline: ComputePipeline::new(
+                device,
+                &scene.layout,
+                shaders::CLUSTER_PAIRS_COMP,
+                &Specialization::default(),
+            )?,
+            tiles: Buffer::new(device, "pairs", BufferUse::Storage, tiles as usize)?,
+        })
+    }
+
+    /// Counts the pairs of the picture last rendered.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn count(
+        &self,
+        device: &Arc<Device>,
+        scene: &GpuScene,
+        frame: DescriptorSet<'_>,
+        tiles: [u32; 2],
+    ) -> Result<PairCount> {
+        frame.buffer(shared::frame::FRAME_PAIRS, &self.tiles);
+        device.run("pairs", |cmd| {
+            cmd.memory_barrier(Use::ComputeWrite, Use::ComputeRead);
+            cmd.bind_compute(&self.pipeline, &[frame, scene.set.get(0)]);
+            cmd.dispatch([tiles[0], tiles[1], 1]);
+            Ok(())
+        })?;
+        let sum = |pairs: PairCount, tile: &TilePairs| PairCount {
+            evaluated: pairs.evaluated + u64::from(tile.evaluated),
+            useful: pairs.useful + u64::from(tile.useful),
+        };
+        Ok(self
+            .tiles
+            .fetch(Use::ComputeWrite)?
+            .iter()
+            .fold(PairCount::default(), sum))
+    }
+}

@@ -1,0 +1,87 @@
+//! Depth only, reversed; masked materials are tested.
+//!
+//! Reads the scene's triangles, writes depth. Cheap beside shading, and it removes all overdraw from it.
+
+use super::{PassInputs, draw_scene};
+use crate::error::Result;
+use crate::gpu::{
+    Attachment, Commands, DepthTest, DescriptorSet, Framebuffer, GraphicsDescription,
+    GraphicsPipeline, Outside, RenderPass, Subpass, Use, shaders,
+};
+use crate::gpu_scene::{GpuScene, Variant};
+use crate::targets::{DEPTH_FORMAT, Targets};
+
+/// The depth prepass.
+pub struct Prepass {
+    pass: RenderPass,
+    framebuffer: Framebuffer,
+    // By variant.
+    pipelines: Vec<GraphicsPipeline>,
+}
+
+impl Prepass {
+    /// Makes pass and pipelines.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn new(inputs: &PassInputs<'_>, targets: &Targets) -> Result<Self> {
+        let pass = RenderPass::new(
+            inputs.device,
+            "prepass",
+            &[Attachment {
+                format: DEPTH_FORMAT,
+                before: Use::Nothing,
+                after: Use::DepthRead,
+            }],
+            &[Subpass {
+                depth: Some((0, Use::DepthWrite)),
+                ..Subpass::default()
+            }],
+            &[],
+            // The last frame's readers, then this frame's clustering.
+            &[
+                Outside::Before(Use::DepthRead, Use::DepthWrite),
+                Outside::After(Use::DepthWrite, Use::DepthRead),
+            ],
+        )?;
+        let framebuffer = Framebuffer::new(inputs.device, &pass, &[&targets.depth])?;
+        let pipeline = |variant: &Variant| {
+            GraphicsPipeline::new(
+                inputs.device,
+                &inputs.scene.layout,
+                &GraphicsDescription {
+                    name: "prepass",
+                    vertex: shaders::PREPASS_SURFACE_VERT,
+                    fragment: variant.masked.then_some(shaders::PREPASS_MASK_FRAG),
+                    specialization: &variant.specialization,
+                    vertices: true,
+                    depth: DepthTest::WriteNearest,
+                    blend: None,
+                    cull: variant.cull(),
+                    pass: &pass,
+                    subpass: 0,
+                },
+            )
+        };
+        let pipelines = inputs
+            .scene
+            .variants
+            .iter()
+            .map(pipeline)
+            .collect::<Result<_>>()?;
+        Ok(Self {
+            pass,
+            framebuffer,
+            pipelines,
+        })
+    }
+
+    /// Draws the scene's depth.
+    pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
+        cmd.labelled("prepass", |cmd| {
+            cmd.begin_pass(&self.pass, &self.framebuffer);
+            draw_scene(cmd, scene, frame, |variant| &self.pipelines[variant]);
+            cmd.end_pass();
+        });
+    }
+}

@@ -1,0 +1,52 @@
+//! Subpass *present*: reads the HDR colour at its pixel; exposure, tone curve, sRGB encoding.
+
+use super::PassInputs;
+use crate::error::Result;
+use crate::gpu::{
+    Blend, Commands, Cull, DepthTest, DescriptorSet, GraphicsDescription, GraphicsPipeline,
+    RenderPass, Specialization, shaders,
+};
+use crate::scene::settings::Tonemap;
+use crate::shared::{self, DrawConstants};
+
+/// The subpass's pipeline.
+pub struct Present(GraphicsPipeline);
+
+impl Present {
+    /// Compiles the tone curve in.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn new(inputs: &PassInputs<'_>, tonemap: Tonemap, at: (&RenderPass, u32)) -> Result<Self> {
+        let curve = match tonemap {
+            Tonemap::None => 0,
+            Tonemap::Aces => 1,
+            Tonemap::Agx => 2,
+        };
+        GraphicsPipeline::new(
+            inputs.device,
+            &inputs.scene.layout,
+            &GraphicsDescription {
+                name: "present",
+                vertex: shaders::PRESENT_FULLSCREEN_VERT,
+                fragment: Some(shaders::PRESENT_PRESENT_FRAG),
+                specialization: &Specialization::default().with(shared::SPEC_TONEMAP, curve),
+                vertices: false,
+                depth: DepthTest::Off,
+                blend: Some(Blend::Replace),
+                cull: Cull::None,
+                pass: at.0,
+                subpass: at.1,
+            },
+        )
+        .map(Self)
+    }
+
+    /// Encodes the picture: the sum of samples times `scale`.
+    pub fn record(&self, cmd: &mut Commands, frame: DescriptorSet<'_>, scale: f32) {
+        cmd.bind_graphics(&self.0);
+        cmd.bind_sets(shared::frame::SET, &[frame]);
+        cmd.push(&DrawConstants { material: 0, scale });
+        cmd.draw_fullscreen();
+    }
+}

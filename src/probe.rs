@@ -1,0 +1,34 @@
+//! Calls a function of the shaders' library for rows of inputs: how tests reach the GLSL that ships.
+
+use crate::error::Result;
+use crate::gpu::{
+    Buffer, BufferUse, ComputePipeline, Device, PipelineLayout, Shader, Specialization, Use,
+};
+use crate::shared::{self, LINEAR_GROUP};
+use bytemuck::Pod;
+use std::sync::Arc;
+
+/// Runs a probe shader over `rows`; it writes one `Out` per row.
+///
+/// # Errors
+/// [`crate::Error::Vulkan`] from the driver.
+pub fn run<In: Pod, Out: Pod>(
+    device: &Arc<Device>,
+    shader: Shader,
+    specialization: &Specialization,
+    rows: &[In],
+) -> Result<Vec<Out>> {
+    let layout = Arc::new(PipelineLayout::new(device, &[shared::probe::BINDINGS])?);
+    let pipeline = ComputePipeline::new(device, &layout, shader, specialization)?;
+    let input = Buffer::with(device, "probe rows", BufferUse::Storage, rows)?;
+    let output = Buffer::<Out>::new(device, "probe results", BufferUse::Storage, rows.len())?;
+    let sets = layout.allocate(shared::probe::SET, 1)?;
+    sets.get(0).buffer(shared::probe::PROBE_IN, &input);
+    sets.get(0).buffer(shared::probe::PROBE_OUT, &output);
+    device.run("probe", |cmd| {
+        cmd.bind_compute(&pipeline, &[sets.get(0)]);
+        cmd.dispatch([(rows.len() as u32).div_ceil(LINEAR_GROUP), 1, 1]);
+        Ok(())
+    })?;
+    output.fetch(Use::ComputeWrite)
+}
