@@ -49,7 +49,8 @@ const WHITE: [f64; 3] = [0.950_428_54, 1.0, 1.088_900_37];
 
 type Color = [f64; 3];
 
-/// Error of every pixel between A and the reference B, which have the same size.
+/// Error of every pixel between A and the reference B, which have the same size. A pixel that is NaN or infinite in
+/// either is black in both, so that it does not spread.
 #[must_use]
 pub fn map(a: &HdrImage, b: &HdrImage, display_referred: bool) -> Vec<f64> {
     let size = Size {
@@ -61,13 +62,20 @@ pub fn map(a: &HdrImage, b: &HdrImage, display_referred: bool) -> Vec<f64> {
     } else {
         Some(0.18 / mean_luminance(b))
     };
-    let [a, b] = [a, b].map(|image| {
-        let shown = image
+    let finite = |pixel: &[f32; 3]| pixel.iter().all(|value| value.is_finite());
+    let shown = |image: &HdrImage| {
+        let pair = a
             .pixels
             .par_iter()
-            .map(|pixel| opponent(displayed(*pixel, exposure)));
-        Appearance::new(shown.collect(), size)
-    });
+            .zip(&b.pixels)
+            .map(|(a, b)| finite(a) && finite(b));
+        let pixel = |(pixel, shown): (&[f32; 3], bool)| if shown { *pixel } else { [0.0; 3] };
+        let shown = image.pixels.par_iter().zip(pair).map(pixel);
+        shown
+            .map(|pixel| opponent(displayed(pixel, exposure)))
+            .collect()
+    };
+    let [a, b] = [a, b].map(|image| Appearance::new(shown(image), size));
     let greatest = greatest_color_difference();
     let pixel = |i: usize| {
         let color = redistributed(color_difference(a.color[i], b.color[i]).powf(QC), greatest);
@@ -90,13 +98,12 @@ fn mean_luminance(image: &HdrImage) -> f64 {
     if mean > 0.0 { mean } else { 1.0 }
 }
 
-/// The linear colour that a screen shows, in [0, 1]; NaN as black.
+/// The linear colour that a screen shows, in [0, 1].
 fn displayed(pixel: [f32; 3], exposure: Option<f64>) -> Color {
     pixel.map(|value| {
         let value = f64::from(value).max(0.0);
         let shown = match exposure {
             None => value,
-            Some(_) if value == f64::INFINITY => 1.0,
             Some(scale) => value * scale / (1.0 + value * scale),
         };
         shown.min(1.0)
