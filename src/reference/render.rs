@@ -42,7 +42,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// As the scene says, with a tolerance of 5e-4.
+    /// As the scene says, with a tolerance of 1e-3.
     #[must_use]
     pub fn of_scene(scene: &Scene) -> Self {
         Self {
@@ -50,7 +50,7 @@ impl Options {
             spp: scene.render.samples,
             seed: 0,
             integrator: Integrator::Direct,
-            tolerance: 5e-4,
+            tolerance: 1e-3,
             progress: false,
         }
     }

@@ -21,7 +21,7 @@ use crate::scene::{AreaLight, AreaShape, Texture};
 /// Independent estimates from which the standard error is taken.
 const SHIFTS: usize = 8;
 /// Points of each strategy and shift at first, and at most.
-const POINTS: [u32; 2] = [32, 4096];
+const POINTS: [u32; 2] = [32, 16384];
 
 /// An area light in double precision.
 #[derive(Clone, Debug)]

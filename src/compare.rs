@@ -1,1 +1,0 @@
-//! Error figures between two pictures.

@@ -1,0 +1,350 @@
+//! Camera rays, hits, point lights and whole small pictures of the oracle.
+
+use amas::reference::lights::{Bounds, falloff, reaching, reaching_point};
+use amas::reference::rays::{Geometry, camera_ray};
+use amas::reference::{Integrator, Options, render};
+use amas::scene::material::{PARAMETER_COUNT, Value};
+use amas::scene::{
+    AreaLight, AreaShape, Camera, Material, Mesh, Model, Parameter, PointLight, Projection, Scene,
+    Texels, Texture, Vertex,
+};
+use glam::{DVec3, Vec3, vec3};
+
+fn camera(projection: Projection) -> Camera {
+    Camera {
+        name: "main".into(),
+        position: DVec3::new(0.0, 0.0, 2.0),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection,
+        near: 0.05,
+        far: None,
+        path: vec![],
+    }
+}
+
+fn perspective() -> Camera {
+    camera(Projection::Perspective { vertical_fov: 60.0 })
+}
+
+/// A white Lambert square of side 4 at z = 0, facing +z.
+fn scene() -> Scene {
+    let mut parameters = [Value::default(); PARAMETER_COUNT];
+    parameters[Parameter::Color as usize].constant = [0.5, 0.25, 1.0];
+    let material = Material {
+        name: "white".into(),
+        model: Model::Matte,
+        parameters,
+        squared_roughness: false,
+        two_sided: true,
+    };
+    let vertex = |[x, y]: [f32; 2]| Vertex {
+        position: [2.0 * x, 2.0 * y, 0.0],
+        normal: [0.0, 0.0, 1.0],
+        tangent: [1.0, 0.0, 0.0, 1.0],
+        uv: [0.5 * x + 0.5, 0.5 * y + 0.5],
+    };
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let mesh = Mesh {
+        vertices: corners.map(vertex).into(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        material: 0,
+    };
+    let light = PointLight {
+        position: vec3(0.3, 0.2, 1.0),
+        intensity: vec3(1.0, 2.0, 3.0),
+        range: None,
+    };
+    Scene {
+        cameras: vec![perspective()],
+        materials: vec![material],
+        meshes: vec![mesh],
+        point_lights: vec![light],
+        ..Scene::default()
+    }
+}
+
+fn options(size: [u32; 2]) -> Options {
+    Options {
+        size,
+        ..Options::of_scene(&scene())
+    }
+}
+
+fn center(scene: &Scene) -> [f32; 3] {
+    render(scene, &scene.cameras[0], &options([1, 1]))
+        .unwrap()
+        .image
+        .pixels[0]
+}
+
+#[test]
+fn perspective_rays_follow_the_contract() {
+    let (camera, [w, h]) = (perspective(), [320.0_f64, 240.0_f64]);
+    let tangent = 30.0_f64.to_radians().tan();
+    for (x, y) in [(0.0, 0.0), (17.0, 200.0), (319.0, 239.0)] {
+        let got = camera_ray(&camera, [320, 240], x + 0.5, y + 0.5);
+        let right = tangent * (w / h) * (2.0 * (x + 0.5) / w - 1.0);
+        let up = tangent * (1.0 - 2.0 * (y + 0.5) / h);
+        let want = DVec3::new(right, up, -1.0);
+        assert!(got.ray.direction.abs_diff_eq(want.normalize(), 1e-15));
+        assert!(
+            (got.t_min - 0.05 * want.length()).abs() < 1e-15,
+            "near is along the view"
+        );
+    }
+}
+
+#[test]
+fn orthographic_rays_follow_the_contract() {
+    let camera = camera(Projection::Orthographic { height: 3.0 });
+    let got = camera_ray(&camera, [4, 2], 0.5, 0.5).ray;
+    assert!(got.origin.abs_diff_eq(DVec3::new(-2.25, 0.75, 2.0), 1e-15));
+    assert_eq!(got.direction, DVec3::NEG_Z);
+}
+
+#[test]
+fn lambert_under_a_point_light() {
+    let scene = scene();
+    let size = [9, 5];
+    let image = render(&scene, &scene.cameras[0], &options(size))
+        .unwrap()
+        .image;
+    for (i, got) in image.pixels.iter().enumerate() {
+        let (x, y) = ((i % 9) as f64 + 0.5, (i / 9) as f64 + 0.5);
+        let ray = camera_ray(&scene.cameras[0], size, x, y).ray;
+        let p = ray.origin - ray.direction * (ray.origin.z / ray.direction.z);
+        let to_light = scene.point_lights[0].position.as_dvec3() - p;
+        let cos_over_d2 = to_light.z / to_light.length().powi(3);
+        let lit = p.abs().max_element() < 2.0;
+        for (c, albedo) in [0.5, 0.25, 1.0].into_iter().enumerate() {
+            let intensity = f64::from(scene.point_lights[0].intensity[c]);
+            let want = albedo / std::f64::consts::PI * intensity * cos_over_d2;
+            let want = if lit { want } else { 0.0 };
+            assert!(
+                (f64::from(got[c]) - want).abs() <= 1e-7 * want,
+                "{got:?} {want}"
+            );
+        }
+    }
+}
+
+#[test]
+fn facing() {
+    let mut scene = scene();
+    let from_front = center(&scene);
+    scene.meshes[0]
+        .triangles
+        .iter_mut()
+        .for_each(|t| t.reverse());
+    assert_eq!(
+        center(&scene),
+        [0.0; 3],
+        "turned to the viewer, the normal now points away"
+    );
+    scene.materials[0].two_sided = false;
+    scene.render.background = [7.0; 3];
+    assert_eq!(
+        center(&scene),
+        [7.0; 3],
+        "a one-sided back face is not drawn"
+    );
+    scene.meshes[0]
+        .triangles
+        .iter_mut()
+        .for_each(|t| t.reverse());
+    assert_eq!(center(&scene), from_front);
+}
+
+#[test]
+fn near_and_far_planes_cut() {
+    let mut scene = scene();
+    scene.render.background = [7.0; 3];
+    scene.cameras[0].near = 2.0 + 1e-9;
+    assert_eq!(center(&scene), [7.0; 3]);
+    scene.cameras[0].near = 0.1;
+    scene.cameras[0].far = Some(2.0 - 1e-9);
+    assert_eq!(center(&scene), [7.0; 3]);
+}
+
+#[test]
+fn alpha_mask_cuts() {
+    let mut scene = scene();
+    scene.render.background = [7.0; 3];
+    // The upper row is opaque, the lower one is cut: v runs upwards, row 0 is on top.
+    let texels = Texels::Linear8(vec![[255; 4], [0; 4]]);
+    scene.textures = vec![Texture {
+        name: "mask".into(),
+        width: 1,
+        height: 2,
+        texels,
+    }];
+    scene.materials[0].parameters[Parameter::Mask as usize].texture = Some(0);
+    let image = render(&scene, &scene.cameras[0], &options([1, 8]))
+        .unwrap()
+        .image;
+    let cut: Vec<_> = image
+        .pixels
+        .iter()
+        .map(|pixel| *pixel == [7.0; 3])
+        .collect();
+    assert_eq!(cut, [false, false, false, false, true, true, true, true]);
+}
+
+#[test]
+fn no_ray_slips_through_an_edge() {
+    let scene = scene();
+    let geometry = Geometry::new(&scene);
+    let camera = &scene.cameras[0];
+    // The diagonal is the triangles' common edge, and the picture is square, so every ray of it meets that edge.
+    let all = (0..=64_u32).all(|i| {
+        let at = f64::from(i);
+        geometry
+            .closest(&camera_ray(camera, [64, 64], at, 64.0 - at))
+            .is_some()
+    });
+    assert!(all);
+}
+
+#[test]
+fn luminaires_are_seen_and_occlude() {
+    let mut scene = scene();
+    scene.render.background = [7.0; 3];
+    let shape = AreaShape::Rect {
+        center: Vec3::Z,
+        u: Vec3::X * 0.1,
+        v: Vec3::Y * 0.1,
+    };
+    let radiance = vec3(3.0, 2.0, 1.0);
+    let light = AreaLight {
+        shape,
+        radiance,
+        two_sided: false,
+        visible: true,
+        texture: None,
+    };
+    scene.area_lights = vec![light];
+    assert_eq!(center(&scene), [3.0, 2.0, 1.0]);
+    if let AreaShape::Rect { u, .. } = &mut scene.area_lights[0].shape {
+        *u = -*u;
+    }
+    assert_eq!(center(&scene), [0.0; 3], "the back of a luminaire is black");
+    scene.area_lights[0].visible = false;
+    assert!(center(&scene)[0] > 0.0);
+}
+
+#[test]
+fn ranged_lights_by_the_tree_are_all_of_them() {
+    let mut scene = scene();
+    let number =
+        |i: u32, k: u32| (i.wrapping_mul(2_654_435_761 + 40_503 * k) >> 8) as f32 / 16_777_216.0;
+    let light = |i: u32| PointLight {
+        position: vec3(
+            4.0 * number(i, 0) - 2.0,
+            4.0 * number(i, 1) - 2.0,
+            number(i, 2),
+        ),
+        intensity: Vec3::splat(0.01),
+        range: Some(0.05 + number(i, 3)),
+    };
+    scene.point_lights = (0..3000).map(light).collect();
+    let all = render(&scene, &scene.cameras[0], &options([8, 8]))
+        .unwrap()
+        .image;
+    let mut sums = vec![[0.0_f64; 3]; 64];
+    for light in scene.point_lights.clone() {
+        let one = Scene {
+            point_lights: vec![light],
+            ..scene.clone()
+        };
+        let one = render(&one, &one.cameras[0], &options([8, 8]))
+            .unwrap()
+            .image;
+        for (sum, pixel) in sums.iter_mut().zip(one.pixels) {
+            sum.iter_mut()
+                .zip(pixel)
+                .for_each(|(sum, value)| *sum += f64::from(value));
+        }
+    }
+    for (got, want) in all.pixels.iter().zip(sums) {
+        assert!((f64::from(got[0]) - want[0]).abs() <= 1e-6 * want[0]);
+    }
+}
+
+#[test]
+fn falloff_and_membership() {
+    assert_eq!(falloff(4.0, None), 0.25);
+    assert_eq!(falloff(0.0, None), 1e12);
+    assert!((falloff(1e-6, Some(1.0)) - 1e4).abs() < 1e-3);
+    assert_eq!(falloff(0.25, Some(1.0)), (1.0_f64 - 0.0625).powi(2) / 0.25);
+    assert_eq!(falloff(1.0, Some(1.0)), 0.0);
+    let light = |x: f32, range| PointLight {
+        position: vec3(x, 0.0, 0.0),
+        intensity: Vec3::ONE,
+        range,
+    };
+    let lights = [
+        light(3.0, Some(1.5)),
+        light(3.0, Some(2.5)),
+        light(9.0, None),
+        light(0.5, Some(0.1)),
+    ];
+    let unit = Bounds {
+        min: DVec3::ZERO,
+        max: DVec3::ONE,
+    };
+    assert_eq!(reaching(&lights, &unit), [1, 2, 3]);
+    assert_eq!(
+        reaching_point(&lights, DVec3::new(2.0, 0.0, 0.0)),
+        [0, 1, 2]
+    );
+}
+
+#[test]
+fn pictures_do_not_depend_on_threads() {
+    let mut scene = scene();
+    let shape = AreaShape::Rect {
+        center: vec3(0.0, 0.5, 1.0),
+        u: Vec3::X,
+        v: Vec3::NEG_Y,
+    };
+    let radiance = Vec3::ONE;
+    let light = AreaLight {
+        shape,
+        radiance,
+        two_sided: false,
+        visible: false,
+        texture: None,
+    };
+    scene.area_lights = vec![light];
+    let options = Options {
+        spp: 3,
+        seed: 5,
+        tolerance: 1e-2,
+        ..options([6, 4])
+    };
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| render(&scene, &scene.cameras[0], &options).unwrap())
+    };
+    let one = with(1);
+    assert_eq!(one, with(3));
+    assert!(one.standard_error.pixels.iter().all(|pixel| pixel[0] > 0.0));
+}
+
+#[test]
+fn what_is_missing_is_said() {
+    let scene = scene();
+    for integrator in [Integrator::Shadowed, Integrator::Path] {
+        let options = Options {
+            integrator,
+            ..options([1, 1])
+        };
+        let error = render(&scene, &scene.cameras[0], &options).unwrap_err();
+        assert_eq!(error.exit_code(), 2);
+        assert!(error.to_string().contains("not supported yet"));
+    }
+}
