@@ -218,7 +218,6 @@ fn add(
 /// Warns where a material needs texture coordinates that the mesh does not have.
 fn check_uvs(loader: &mut Loader, table: &Table, mesh: &Mesh) {
     let material = &loader.scene.materials[mesh.material as usize];
-    let (name, place) = (&material.name, table.place());
     let textured = material
         .parameters
         .iter()
@@ -228,15 +227,18 @@ fn check_uvs(loader: &mut Loader, table: &Table, mesh: &Mesh) {
         .vertices
         .iter()
         .any(|vertex| vertex.tangent != [0.0; 4]);
-    if textured && !has_uvs {
-        let cause =
-            "has textures, but the mesh has no texture coordinates; one texel covers it all";
-        loader.warn(format!("{place}: the material \"{name}\" {cause}"));
+    let cause = if textured && !has_uvs {
+        "has textures, but the mesh has no texture coordinates; one texel covers it all"
     } else if anisotropic(material) && !has_tangents {
-        let cause =
-            "is anisotropic, but the mesh has no texture coordinates; it is drawn isotropic";
-        loader.warn(format!("{place}: the material \"{name}\" {cause}"));
-    }
+        "is anisotropic, but the mesh has no texture coordinates; it is drawn isotropic"
+    } else {
+        return;
+    };
+    let name = &material.name;
+    loader.warn(format!(
+        "{}: the material \"{name}\" {cause}",
+        table.place()
+    ));
 }
 
 fn anisotropic(material: &Material) -> bool {
