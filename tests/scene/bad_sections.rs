@@ -253,15 +253,7 @@ fn lights() {
         "[[0.4,0.4,0],[0.6,0.4,0],[0.4,0.6,0]]",
     ] {
         let holes = format!("holes = [[[0.5,0.1,0],[0.6,0.9,0],[0.5,0.9,0]], {hole}]\n");
-        fails(
-            &format!("{square}{holes}"),
-            8,
-            if hole.contains("1.2") {
-                "leaves"
-            } else {
-                "crosses"
-            },
-        );
+        fails(&format!("{square}{holes}"), 8, "crosses");
     }
     fails(square, 5, "lacks the key `radiance`");
     fails(&format!("{square}radiance = [1, 1, -1]\n"), 8, "0 or more");
