@@ -2,7 +2,7 @@
 //!
 //! Where the contract is silent: `plane` and `box` take `size`, the full edge lengths [1]; `sphere` and `disk` take
 //! `radius` [1]; a sphere's `segments` are `[longitude, latitude]` [32, 16] or one number n for [n, n/2], a
-//! disk's are its sectors [64]. A shape without `material` is drawn grey, with a warning. `normals` only matters
+//! disk's are its sectors [64]. What has no material is drawn grey, with a warning. `normals` only matters
 //! to faces without normals.
 
 use glam::DVec3;
@@ -84,12 +84,6 @@ fn from_shape(loader: &mut Loader, table: &Table, shape: &Value) -> Result<()> {
         all: material(loader, table)?,
         ..Binding::default()
     };
-    if binding.all.is_none() {
-        loader.warn(format!(
-            "{} has no `material`; it is drawn grey",
-            table.place()
-        ));
-    }
     add(loader, table, &[group], Normals::Smooth, &binding, None)
 }
 
@@ -208,6 +202,12 @@ fn add(
         return Err(table.error(cause, "check the OBJ, and that `scale` does not flatten it"));
     }
     for (name, mut mesh) in meshes {
+        if name.is_none() && binding.all.is_none() {
+            loader.warn(format!(
+                "{}: faces without a material are drawn grey",
+                table.place()
+            ));
+        }
         mesh.material = bind::material(loader, binding, name.as_deref(), obj)?;
         check_uvs(loader, table, &mesh);
         loader.scene.meshes.push(mesh);
