@@ -14,6 +14,7 @@ pub mod material;
 pub mod mesh;
 mod mtl;
 mod obj;
+mod obj_scan;
 mod outline;
 mod parse;
 mod points;

@@ -17,7 +17,7 @@ use std::path::Path;
 use super::decode::Use;
 use super::load::Loader;
 use super::material::{Material, Model, Parameter};
-use super::obj::logical_lines;
+use super::obj_scan::logical_lines;
 use crate::error::{Error, Result};
 
 /// A specular colour below this is none.

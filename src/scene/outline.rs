@@ -49,6 +49,7 @@ impl Plane {
     /// Whether `hole` lies in the plane and within `outer`.
     pub(super) fn check_hole(&self, outer: &[DVec3], hole: &[DVec3]) -> Result<(), String> {
         self.check_loop(hole)?;
+        self.check_apart(outer, hole)?;
         let outer = self.flatten(outer);
         let inside = |point: &DVec2| {
             let near = |(a, b): (DVec2, DVec2)| distance(*point, a, b) <= FLATNESS * self.extent;
@@ -56,6 +57,16 @@ impl Plane {
         };
         match self.flatten(hole).iter().position(|point| !inside(point)) {
             Some(index) => Err(format!("leaves the outer loop at its vertex {index}")),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether the edges of two loops keep clear of one another.
+    pub(super) fn check_apart(&self, one: &[DVec3], other: &[DVec3]) -> Result<(), String> {
+        let (one, other) = (self.flatten(one), self.flatten(other));
+        let hit = |edge: &(DVec2, DVec2)| edges(&other).any(|second| cross(*edge, second));
+        match edges(&one).position(|edge| hit(&edge)) {
+            Some(index) => Err(format!("crosses edge {index} of another loop")),
             None => Ok(()),
         }
     }
@@ -103,10 +114,12 @@ fn edges<T: Copy>(points: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
 fn crossing(points: &[DVec2]) -> Option<(usize, usize)> {
     let edges: Vec<(DVec2, DVec2)> = edges(points).collect();
     let pairs = (0..edges.len()).flat_map(|i| (i + 2..edges.len()).map(move |j| (i, j)));
-    pairs.into_iter().find(|(i, j)| {
-        let ((a, b), (c, d)) = (edges[*i], edges[*j]);
-        side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
-    })
+    pairs.into_iter().find(|(i, j)| cross(edges[*i], edges[*j]))
+}
+
+/// Whether two segments properly cross: touching does not count.
+fn cross((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> bool {
+    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
 }
 
 /// Sign of the side of a→b on which `p` lies.

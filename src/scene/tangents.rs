@@ -43,7 +43,7 @@ pub(super) fn add(mesh: &mut Mesh) {
     }
     for ((vertex, sum), sign) in mesh.vertices.iter_mut().zip(sums).zip(signs) {
         let normal = Vec3::from(vertex.normal).as_dvec3();
-        let tangent = sum - normal * normal.dot(sum);
+        let tangent = sum.reject_from(normal);
         // What is left of a sum along the normal, or of one that cancelled, is rounding.
         if tangent.length() > 1e-6 {
             let tangent = tangent.normalize().as_vec3();

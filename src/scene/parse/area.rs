@@ -116,7 +116,7 @@ fn polygon(table: &Table) -> Result<AreaShape> {
     let vertices = outline_loop(&value)?;
     let plane =
         outline::Plane::new(&vertices).map_err(|cause| value.error(cause, outline::REMEDY))?;
-    let mut holes = Vec::new();
+    let mut holes: Vec<Vec<DVec3>> = Vec::new();
     if let Some(value) = table.get("holes") {
         let items = value.items("[[[0, 2, 0], [0, 2, 1], [1, 2, 0]]]")?;
         if items.len() > MOST_HOLES {
@@ -127,9 +127,12 @@ fn polygon(table: &Table) -> Result<AreaShape> {
         }
         for item in items {
             let hole = outline_loop(&item)?;
-            plane
-                .check_hole(&vertices, &hole)
-                .map_err(|cause| item.error(cause, outline::REMEDY))?;
+            let apart = plane.check_hole(&vertices, &hole).and_then(|()| {
+                holes
+                    .iter()
+                    .try_for_each(|other| plane.check_apart(other, &hole))
+            });
+            apart.map_err(|cause| item.error(cause, outline::REMEDY))?;
             holes.push(hole);
         }
     }

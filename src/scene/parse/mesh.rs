@@ -2,7 +2,7 @@
 //!
 //! Where the contract is silent: `plane` and `box` take `size`, the full edge lengths [1]; `sphere` and `disk` take
 //! `radius` [1]; a sphere's `segments` are `[longitude, latitude]` [32, 16] or one number n for [n, n/2], a
-//! disk's are its sectors [64]. A shape without `material` is drawn grey, with a warning. `normals` only matters
+//! disk's are its sectors [64]. What has no material is drawn grey, with a warning. `normals` only matters
 //! to faces without normals.
 
 use glam::DVec3;
@@ -84,12 +84,6 @@ fn from_shape(loader: &mut Loader, table: &Table, shape: &Value) -> Result<()> {
         all: material(loader, table)?,
         ..Binding::default()
     };
-    if binding.all.is_none() {
-        loader.warn(format!(
-            "{} has no `material`; it is drawn grey",
-            table.place()
-        ));
-    }
     add(loader, table, &[group], Normals::Smooth, &binding, None)
 }
 
@@ -208,6 +202,12 @@ fn add(
         return Err(table.error(cause, "check the OBJ, and that `scale` does not flatten it"));
     }
     for (name, mut mesh) in meshes {
+        if name.is_none() && binding.all.is_none() {
+            loader.warn(format!(
+                "{}: faces without a material are drawn grey",
+                table.place()
+            ));
+        }
         mesh.material = bind::material(loader, binding, name.as_deref(), obj)?;
         check_uvs(loader, table, &mesh);
         loader.scene.meshes.push(mesh);
@@ -218,7 +218,6 @@ fn add(
 /// Warns where a material needs texture coordinates that the mesh does not have.
 fn check_uvs(loader: &mut Loader, table: &Table, mesh: &Mesh) {
     let material = &loader.scene.materials[mesh.material as usize];
-    let (name, place) = (&material.name, table.place());
     let textured = material
         .parameters
         .iter()
@@ -228,15 +227,18 @@ fn check_uvs(loader: &mut Loader, table: &Table, mesh: &Mesh) {
         .vertices
         .iter()
         .any(|vertex| vertex.tangent != [0.0; 4]);
-    if textured && !has_uvs {
-        let cause =
-            "has textures, but the mesh has no texture coordinates; one texel covers it all";
-        loader.warn(format!("{place}: the material \"{name}\" {cause}"));
+    let cause = if textured && !has_uvs {
+        "has textures, but the mesh has no texture coordinates; one texel covers it all"
     } else if anisotropic(material) && !has_tangents {
-        let cause =
-            "is anisotropic, but the mesh has no texture coordinates; it is drawn isotropic";
-        loader.warn(format!("{place}: the material \"{name}\" {cause}"));
-    }
+        "is anisotropic, but the mesh has no texture coordinates; it is drawn isotropic"
+    } else {
+        return;
+    };
+    let name = &material.name;
+    loader.warn(format!(
+        "{}: the material \"{name}\" {cause}",
+        table.place()
+    ));
 }
 
 fn anisotropic(material: &Material) -> bool {
