@@ -1,8 +1,36 @@
 //! `amas compare`: error figures between two pictures.
 
 use super::args::CompareOptions;
+use crate::compare::{Figures, compare_files};
 use crate::error::Result;
 
-pub(super) fn run(_: &CompareOptions) -> Result<()> {
+pub(super) fn run(options: &CompareOptions) -> Result<()> {
+    let figures = compare_files(&options.a, &options.b, options.mask.as_deref(), options.block)?;
+    if options.json {
+        println!("{:#}", serde_json::json!(figures));
+    } else {
+        print(&figures);
+    }
     Ok(())
+}
+
+fn print(f: &Figures) {
+    let rows = [
+        ("relMSE", f.rel_mse),
+        ("RMSE", f.rmse),
+        ("mean bias", f.mean_bias),
+        ("relative error, mean", f.mean_relative_error),
+        ("… p50", f.p50),
+        ("… p99", f.p99),
+        ("… p99.9", f.p99_9),
+        ("… max", f.max),
+        ("share beyond 1 %", f.beyond_one_percent),
+        ("largest value of A", f.largest_a),
+        ("largest value of B", f.largest_b),
+        ("FLIP", f.flip),
+    ];
+    println!("{} × {}, {} compared, {} not finite", f.width, f.height, f.compared, f.non_finite);
+    for (name, value) in rows {
+        println!("{name:<24}{value:.6e}");
+    }
 }
