@@ -5,7 +5,12 @@ use crate::compare::{Figures, compare_files};
 use crate::error::Result;
 
 pub(super) fn run(options: &CompareOptions) -> Result<()> {
-    let figures = compare_files(&options.a, &options.b, options.mask.as_deref(), options.block)?;
+    let figures = compare_files(
+        &options.a,
+        &options.b,
+        options.mask.as_deref(),
+        options.block,
+    )?;
     if options.json {
         println!("{:#}", serde_json::json!(figures));
     } else {
@@ -29,7 +34,10 @@ fn print(f: &Figures) {
         ("largest value of B", f.largest_b),
         ("FLIP", f.flip),
     ];
-    println!("{} × {}, {} compared, {} not finite", f.width, f.height, f.compared, f.non_finite);
+    println!(
+        "{} × {}, {} compared, {} not finite",
+        f.width, f.height, f.compared, f.non_finite
+    );
     for (name, value) in rows {
         println!("{name:<24}{value:.6e}");
     }
