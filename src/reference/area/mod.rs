@@ -208,7 +208,8 @@ pub(super) fn mean(estimates: &[DVec3]) -> Estimate {
 /// Light of all `emitters` reflected by `surface` towards the viewer, W·sr⁻¹·m⁻².
 ///
 /// Points are added until each light's standard error is at most `tolerance` of the sum (shared by the square root of
-/// the number of lights), or [`POINTS`] are spent. Same seed, same result.
+/// the number of lights), or [`POINTS`] are spent. Stopping when the error looks small favours estimates that are high:
+/// a bias of about 2 % of `tolerance`, measured. Same seed, same result.
 #[must_use]
 pub fn reflected(surface: &Surface, emitters: &[Emitter], tolerance: f64, seed: u64) -> Estimate {
     if surface.wo.z <= 0.0 || emitters.is_empty() {
