@@ -13,6 +13,7 @@
 pub mod app;
 pub mod camera_constants;
 pub mod compare;
+pub mod draws;
 pub mod error;
 pub mod frame;
 #[allow(unsafe_code, reason = "the one layer that calls Vulkan")]
