@@ -192,4 +192,3 @@ fn principled(row: &Row) -> Bsdf {
         subsurface: row.get("ss"),
     })
 }
-
