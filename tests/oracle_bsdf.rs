@@ -7,6 +7,7 @@ use amas::reference::bsdf::{Bsdf, Ggx, Principled};
 use common::albedo::{albedo, at_cosine, figures, r2, white_metal, white_principled};
 use common::tables::{MODELS, albedos, values};
 use glam::DVec3;
+use rayon::prelude::*;
 
 #[test]
 fn every_row_of_the_tables() {
@@ -51,17 +52,13 @@ fn reciprocity() {
 #[test]
 fn albedos_of_the_tables() {
     for (model, ..) in MODELS {
-        for figure in figures(model, &albedos(model)) {
-            let got = albedo(&figure.bsdf, figure.wo, 1 << 15);
-            let error = (got - figure.want).abs().max_element();
-            assert!(
-                error <= 1e-3,
-                "{}: got {got}, want {} of {:?}",
-                figure.place,
-                figure.want,
-                figure.bsdf
-            );
-        }
+        figures(model, &albedos(model))
+            .par_iter()
+            .for_each(|figure| {
+                let got = albedo(&figure.bsdf, figure.wo, 1 << 15);
+                let error = (got - figure.want).abs().max_element();
+                assert!(error <= 1e-3, "{figure}: got {got}");
+            });
     }
 }
 

@@ -151,6 +151,9 @@ fn rounded(bsdf: &Bsdf) -> Bsdf {
     }
 }
 
+/// How to specialise for a BSDF.
+pub(crate) type Choice = fn(&Bsdf) -> Variant;
+
 /// A specialisation: the model, and which of its parts are compiled in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Variant {
@@ -161,7 +164,7 @@ pub(crate) struct Variant {
 
 impl Variant {
     /// Both ways to specialise, by name.
-    pub(crate) const CHOICES: [(&str, fn(&Bsdf) -> Self); 2] =
+    pub(crate) const CHOICES: [(&str, Choice); 2] =
         [("general", Self::general), ("trimmed", Self::trimmed)];
 
     /// Everything compiled in.
@@ -217,7 +220,7 @@ impl Variant {
 }
 
 /// f of every case, each under the variant that `choose` gives it.
-pub(crate) fn eval(gpu: &CheckedGpu, cases: &[Case], choose: fn(&Bsdf) -> Variant) -> Vec<DVec3> {
+pub(crate) fn eval(gpu: &CheckedGpu, cases: &[Case], choose: Choice) -> Vec<DVec3> {
     let mut groups: BTreeMap<Variant, Vec<usize>> = BTreeMap::new();
     for (i, case) in cases.iter().enumerate() {
         groups.entry(choose(&case.bsdf)).or_default().push(i);

@@ -1,6 +1,7 @@
 //! Directional albedos: the figures that the tables know, and the points of a quadrature for them.
 
 use std::f64::consts::PI;
+use std::fmt;
 
 use amas::reference::bsdf::{Bsdf, Ggx, Matte, Metal, Plastic, Principled, Substrate};
 use glam::{DVec2, DVec3};
@@ -14,6 +15,18 @@ pub(crate) struct Figure {
     pub want: DVec3,
     /// Where it is written.
     pub place: String,
+}
+
+impl fmt::Display for Figure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            bsdf,
+            wo,
+            want,
+            place,
+        } = self;
+        write!(f, "{place}: {bsdf:?}, wo {wo}, want {want}")
+    }
 }
 
 /// Every figure of a model's table.
