@@ -55,7 +55,8 @@ fn albedos_of_the_tables() {
         figures(model, &albedos(model))
             .par_iter()
             .for_each(|figure| {
-                let got = albedo(&figure.bsdf, figure.wo, 1 << 15);
+                // Off by at most 3.7e-4, against 2^17 points.
+                let got = albedo(&figure.bsdf, figure.wo, 1 << 14);
                 let error = (got - figure.want).abs().max_element();
                 assert!(error <= 1e-3, "{figure}: got {got}");
             });
