@@ -99,9 +99,9 @@ const LIMITS: &[Limit] = &[
     ),
     (
         "maxPerStageDescriptorStorageBuffers",
-        6,
+        5,
         |l| l.max_per_stage_descriptor_storage_buffers.into(),
-        "tiles, clusters, counters, pairs, light tree and materials",
+        "tiles, clusters, counters, pairs and light tree",
     ),
     (
         "maxStorageBufferRange",
