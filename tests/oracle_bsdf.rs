@@ -1,4 +1,5 @@
 //! The oracle's BSDFs against pbrt-v3 in double precision, and against the laws that every BSDF obeys.
+#![allow(clippy::unwrap_used, reason = "a test that panics fails")]
 
 mod common;
 

@@ -15,5 +15,5 @@ void main() {
   Surface surface = surface_here();
   vec3 sum = vec3(0.0);
   for (uint light = frame.direct_begin; light < frame.light_count; ++light) sum += reflected(surface, light);
-  radiance = vec4(sum, 1.0);
+  radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

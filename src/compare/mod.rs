@@ -17,6 +17,7 @@
 //! A pixel of which a channel of A or B is NaN or infinite is counted in `non_finite` and in no other figure. If B is
 //! black (m = 0), relative figures are 0 where A is black too and infinite (`null` in JSON) where it is not.
 
+mod convolve;
 mod figures;
 pub mod flip;
 

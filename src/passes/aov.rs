@@ -75,6 +75,7 @@ impl Aov {
             }],
             &[],
             &[
+                Outside::Before(Use::TransferRead, Use::ColorWrite),
                 Outside::Before(Use::ComputeWrite, Use::FragmentRead),
                 Outside::After(Use::ColorWrite, Use::TransferRead),
             ],

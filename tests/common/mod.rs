@@ -1,5 +1,7 @@
-//! Reads the BSDF tables of `tests/vectors` and of the folders that extend them.
+//! What several tests share: the BSDF tables of `tests/vectors` and of the folders that extend them, and a scene.
 #![allow(dead_code, reason = "every test binary uses its own part")]
+
+pub(crate) mod square;
 
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -8,7 +10,7 @@ use amas::reference::bsdf::{Bsdf, Ggx, Matte, Metal, Plastic, Principled, Substr
 use glam::{DVec2, DVec3};
 
 /// Folders of tables: the subset that travels with the project, then the complete ones where they are.
-pub fn table_folders() -> Vec<PathBuf> {
+pub(crate) fn table_folders() -> Vec<PathBuf> {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let named = std::env::var_os("AMAS_BSDF_TABLES").map(PathBuf::from);
     let complete = named.or_else(|| Some(root.join("../shared/oracle")).filter(|p| p.is_dir()));
@@ -18,7 +20,7 @@ pub fn table_folders() -> Vec<PathBuf> {
 }
 
 /// A CSV of numbers under a header.
-pub struct Table {
+pub(crate) struct Table {
     pub name: String,
     header: Vec<String>,
     rows: Vec<Vec<f64>>,
@@ -26,13 +28,13 @@ pub struct Table {
 
 /// One row; panics name the column that is missing.
 #[derive(Clone, Copy)]
-pub struct Row<'a> {
+pub(crate) struct Row<'a> {
     table: &'a Table,
     index: usize,
 }
 
 impl Table {
-    pub fn load(path: PathBuf) -> Self {
+    pub(crate) fn load(path: PathBuf) -> Self {
         let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path:?}: {e}"));
         let mut lines = text.lines();
         let header: Vec<_> = lines
@@ -49,32 +51,32 @@ impl Table {
         }
     }
 
-    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+    pub(crate) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         (0..self.rows.len()).map(|index| Row { table: self, index })
     }
 }
 
 impl Row<'_> {
-    pub fn get(&self, column: &str) -> f64 {
+    pub(crate) fn get(&self, column: &str) -> f64 {
         let found = self.table.header.iter().position(|name| name == column);
         let column = found.unwrap_or_else(|| panic!("{}: no column {column}", self.table.name));
         self.table.rows[self.index][column]
     }
 
-    pub fn xyz(&self, prefix: &str, suffixes: [&str; 3]) -> DVec3 {
+    pub(crate) fn xyz(&self, prefix: &str, suffixes: [&str; 3]) -> DVec3 {
         DVec3::from_array(suffixes.map(|suffix| self.get(&format!("{prefix}_{suffix}"))))
     }
 
-    pub fn rgb(&self, prefix: &str) -> DVec3 {
+    pub(crate) fn rgb(&self, prefix: &str) -> DVec3 {
         self.xyz(prefix, ["r", "g", "b"])
     }
 
-    pub fn direction(&self, prefix: &str) -> DVec3 {
+    pub(crate) fn direction(&self, prefix: &str) -> DVec3 {
         self.xyz(prefix, ["x", "y", "z"]).normalize()
     }
 
     /// Where to find the row again.
-    pub fn place(&self) -> String {
+    pub(crate) fn place(&self) -> String {
         format!("{}:{}", self.table.name, self.index + 2)
     }
 
@@ -86,8 +88,11 @@ impl Row<'_> {
     }
 }
 
-/// Names of the tables, the column to match, and how a row becomes a BSDF.
-pub const MODELS: [(&str, &str, fn(&Row) -> Bsdf); 5] = [
+/// The name of a table, the column to match, and how a row becomes a BSDF.
+pub(crate) type TableModel = (&'static str, &'static str, fn(&Row) -> Bsdf);
+
+/// All five.
+pub(crate) const MODELS: [TableModel; 5] = [
     ("matte", "f", matte),
     ("plastic", "f", plastic),
     ("metal", "f", metal),
@@ -152,14 +157,14 @@ fn principled(row: &Row) -> Bsdf {
 }
 
 /// Point `i` of Roberts' R2 sequence.
-pub fn r2(i: u32) -> DVec2 {
+pub(crate) fn r2(i: u32) -> DVec2 {
     let i = f64::from(i) + 0.5;
     DVec2::new(i * 0.754_877_666_246_692_7, i * 0.569_840_290_998_053_2).fract()
 }
 
 /// Directional albedo ∫ f cosθi dωi over `n` quasi-random points of each of two strategies, by the balance heuristic:
 /// the oracle's own sampling, and one that crowds at grazing directions, where 1/(wi·h) of substrate has its spike.
-pub fn albedo(bsdf: &Bsdf, wo: DVec3, n: u32) -> DVec3 {
+pub(crate) fn albedo(bsdf: &Bsdf, wo: DVec3, n: u32) -> DVec3 {
     let term = |wi: DVec3| {
         let pdf = bsdf.pdf(wo, wi) + grazing_pdf(wo, wi);
         if wi.z > 0.0 {
@@ -186,7 +191,7 @@ fn grazing_pdf(wo: DVec3, wi: DVec3) -> f64 {
 }
 
 /// The direction at cosine `mu` from the normal, in the xz plane turned by `phi` degrees.
-pub fn at_cosine(mu: f64, phi: f64) -> DVec3 {
+pub(crate) fn at_cosine(mu: f64, phi: f64) -> DVec3 {
     let (sin, phi) = ((1.0 - mu * mu).sqrt(), phi.to_radians());
     DVec3::new(sin * phi.cos(), sin * phi.sin(), mu)
 }
