@@ -6,12 +6,13 @@ use crate::Folder;
 fn names_and_folders() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("folder.png")).unwrap();
-    for name in ["a.jpg", "a", "a.png.bak", ".png", ""] {
+    for name in ["a.jpg", "a", "a.png.bak", ".png"] {
         folder.refused(
             &["render", "scene.toml", "-o", name],
             &[".png, .exr or .pfm"],
         );
     }
+    folder.refused(&["render", "scene.toml", "-o", ""], &["--output"]);
     for (name, cause) in [
         ("none/a.png", "no folder none"),
         ("scene.toml/a.png", "no folder scene.toml"),
@@ -85,12 +86,6 @@ fn full_disk() {
         );
     }
     let cause = ["/dev/full", "cannot write", "No space left"];
-    let report = ["-o", "full.png", "--report", "/dev/full"];
-    folder.fails(
-        1,
-        &[&["render", "scene.toml"], &report[..]].concat(),
-        &["cannot write"],
-    );
     let bench = ["bench", "scene.toml", "--frames", "1", "--json"];
     folder.fails(1, &[&bench[..], &["/dev/full"]].concat(), &cause);
     folder.fails(

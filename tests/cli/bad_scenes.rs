@@ -66,7 +66,11 @@ fn keys_and_types() {
         "material = \"flor\"",
         &["flor", "floor"],
     );
-    refused("shape = \"plane\"", "obj = \"none.obj\"", &["none.obj"]);
+    refused(
+        "shape = \"plane\"\nsize = 4.0",
+        "obj = \"none.obj\"",
+        &["none.obj"],
+    );
 }
 
 #[test]

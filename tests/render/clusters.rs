@@ -11,7 +11,11 @@ fn a_hundred_thousand_lights_equal_brute_force() {
     let text = small(&format!("{FIVE_MATERIALS}{}", ranged_lights(100_000, 0.12)));
     let mut rig = Rig::new(scene(&text));
     let clustered = rig.render();
-    assert_eq!(rig.frame.counters().dropped, 0, "the lists hold every light");
+    assert_eq!(
+        rig.frame.counters().dropped,
+        0,
+        "the lists hold every light"
+    );
     let brute = Rig::with(scene(&text), |settings| settings.brute_force = true).render();
     let errors = relative_errors(&clustered, &brute);
     let worst = errors[errors.len() - 1];
