@@ -374,11 +374,16 @@ impl Frame {
 fn work(scene: &GpuScene, settings: &FrameSettings) -> Work {
     let lights = &scene.lights;
     let drawn = !scene.draws.is_empty();
-    let clustered = drawn && lights.ranged > 0 && !settings.brute_force;
+    let first_unranged = if settings.brute_force {
+        0
+    } else {
+        lights.ranged
+    };
     Work {
-        unranged: drawn && lights.lights.len() > if clustered { lights.ranged } else { 0 },
+        unranged: drawn && lights.lights.len() > first_unranged,
+        first_unranged: first_unranged as u32,
         background: settings.background != [0.0; 3],
-        clustered,
+        clustered: drawn && first_unranged > 0,
         tonemap: settings.tonemap,
     }
 }

@@ -1,17 +1,17 @@
 //! Point lights in the order the device wants them, and the tree over that order.
 //!
 //! 1. Lights with a range come first, then those without; each kind along a Hilbert curve through its bounds.
-//! 2. Every 16 lights with a range make a leaf, every 8 nodes a parent; a node's box holds its lights' spheres.
+//! 2. Every 32 lights with a range make a leaf, every 8 nodes a parent; a node's box holds its lights' spheres.
 //! 3. Nodes lie in depth-first order, each with the index of the node that follows where it is missed: a walk needs
 //!    no stack.
 
 use crate::scene::PointLight;
-use crate::shared::{LEAF_COUNT_BITS, LightNode};
+use crate::shared::{LEAF_COUNT_BITS, LEAF_LIGHTS, LightNode};
 use glam::Vec3;
 use rayon::prelude::*;
 
 /// Lights of a leaf.
-const LEAF: usize = 16;
+const LEAF: usize = LEAF_LIGHTS as usize;
 /// Children of an inner node.
 const FAN: usize = 8;
 /// Bits per axis of the Hilbert curve.

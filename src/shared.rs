@@ -141,6 +141,8 @@ shared! {
         LIST_WIDTH_LOG2 = 10;
         /// log2 of the rows of a layer of light lists.
         LIST_HEIGHT_LOG2 = 9;
+        /// Lights of a leaf of the light tree; at most 32, one bit each.
+        LEAF_LIGHTS = 32;
         /// Bits of a leaf's light count in `LightNode::lights`.
         LEAF_COUNT_BITS = 6;
         /// Texture slots of a material.
@@ -296,6 +298,8 @@ shared! {
             material: uint;
             /// Present: factor on the accumulated colour.
             scale: float;
+            /// Direct: first light to evaluate, and the one behind the last.
+            lights: uvec2;
         }
         /// A tile's occupied slices.
         Tile {

@@ -101,7 +101,7 @@ impl Aov {
     pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
         cmd.labelled("aov", |cmd| {
             cmd.begin_pass(&self.pass, &self.framebuffer);
-            self.pipelines.draw(cmd, scene, frame);
+            self.pipelines.draw(cmd, scene, frame, [0; 2]);
             cmd.end_pass();
         });
     }

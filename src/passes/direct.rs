@@ -12,10 +12,15 @@ use crate::gpu::{
 use crate::gpu_scene::GpuScene;
 use crate::shared;
 
+/// Lights of one draw; the draws of a surface add up. lavapipe ends a shader's loops, without a word, after 65,535
+/// iterations, and a GPU's watchdog ends draws that last seconds.
+const LIGHTS_PER_DRAW: u32 = 1 << 15;
+
 /// Pipelines of the subpass; absent where the scene has no use for them.
 pub struct Direct {
     unranged: Option<SurfacePipelines>,
     background: Option<GraphicsPipeline>,
+    first_light: u32,
 }
 
 impl Direct {
@@ -48,18 +53,23 @@ impl Direct {
         Ok(Self {
             unranged: work.unranged.then(unranged).transpose()?,
             background: work.background.then(background).transpose()?,
+            first_light: work.first_unranged,
         })
     }
 
     /// Draws background and unranged lights.
     pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
+        let count = scene.lights.lights.len() as u32;
         if let Some(background) = &self.background {
             cmd.bind_graphics(background);
             cmd.bind_sets(shared::frame::SET, &[frame]);
             cmd.draw_fullscreen();
         }
         if let Some(unranged) = &self.unranged {
-            unranged.draw(cmd, scene, frame);
+            for first in (self.first_light..count).step_by(LIGHTS_PER_DRAW as usize) {
+                let end = count.min(first + LIGHTS_PER_DRAW);
+                unranged.draw(cmd, scene, frame, [first, end]);
+            }
         }
     }
 }

@@ -23,6 +23,8 @@ const DEPTH: u32 = 2;
 pub struct Work {
     /// Point lights evaluated one by one.
     pub unranged: bool,
+    /// The first of them; the others follow.
+    pub first_unranged: u32,
     /// Radiance where no surface is.
     pub background: bool,
     /// Lights in lists.

@@ -19,6 +19,6 @@ impl Indirect {
 
     /// Adds every listed light.
     pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
-        self.0.draw(cmd, scene, frame);
+        self.0.draw(cmd, scene, frame, [0; 2]);
     }
 }

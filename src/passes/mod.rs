@@ -70,9 +70,15 @@ impl SurfacePipelines {
         Ok(Self(pipelines.collect::<Result<_>>()?))
     }
 
-    /// Draws the whole scene.
-    fn draw(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
-        draw_scene(cmd, scene, frame, |variant| &self.0[variant]);
+    /// Draws the whole scene; `lights` is for the shaders that evaluate a range of lights.
+    fn draw(
+        &self,
+        cmd: &mut Commands,
+        scene: &GpuScene,
+        frame: DescriptorSet<'_>,
+        lights: [u32; 2],
+    ) {
+        draw_scene(cmd, scene, frame, lights, |variant| &self.0[variant]);
     }
 }
 
@@ -81,6 +87,7 @@ fn draw_scene<'a>(
     cmd: &mut Commands,
     scene: &GpuScene,
     frame: DescriptorSet<'_>,
+    lights: [u32; 2],
     pipeline: impl Fn(usize) -> &'a GraphicsPipeline,
 ) {
     cmd.bind_triangles(&scene.vertices, &scene.triangles);
@@ -100,6 +107,7 @@ fn draw_scene<'a>(
         cmd.push(&DrawConstants {
             material: draw.material,
             scale: 0.0,
+            lights,
         });
         cmd.draw_triangles(draw.first, draw.count);
     }

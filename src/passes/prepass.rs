@@ -80,7 +80,9 @@ impl Prepass {
     pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
         cmd.labelled("prepass", |cmd| {
             cmd.begin_pass(&self.pass, &self.framebuffer);
-            draw_scene(cmd, scene, frame, |variant| &self.pipelines[variant]);
+            draw_scene(cmd, scene, frame, [0; 2], |variant| {
+                &self.pipelines[variant]
+            });
             cmd.end_pass();
         });
     }

@@ -46,7 +46,10 @@ impl Present {
     pub fn record(&self, cmd: &mut Commands, frame: DescriptorSet<'_>, scale: f32) {
         cmd.bind_graphics(&self.0);
         cmd.bind_sets(shared::frame::SET, &[frame]);
-        cmd.push(&DrawConstants { material: 0, scale });
+        cmd.push(&DrawConstants {
+            scale,
+            ..DrawConstants::default()
+        });
         cmd.draw_fullscreen();
     }
 }

@@ -1,6 +1,9 @@
 //! Clustered pictures against every light on every pixel.
 
-use crate::support::{FIVE_MATERIALS, Rig, ranged_lights, relative_errors, scene, unranged_lights};
+use crate::support::{
+    FIVE_MATERIALS, Rig, assert_close, oracle, ranged_lights, relative_errors, scene,
+    unranged_lights,
+};
 
 fn small(text: &str) -> String {
     text.replace("size = [96, 64]", "size = [64, 64]")
@@ -83,4 +86,23 @@ fn pairs_are_counted() {
         pairs.useful >= 7 * covered && pairs.useful <= pairs.evaluated,
         "{pairs:?}"
     );
+}
+
+/// lavapipe ends a shader's loops after 65,535 iterations in all, silently.
+#[test]
+fn more_lights_than_a_loop_may_have_iterations() {
+    let tiny = |text: &str| text.replace("size = [96, 64]", "size = [16, 16]");
+    let lights = "[[light]]\ntype = \"points\"\ngenerate = { count = 1048576, seed = 1, min = [0, 1.5, 1], \
+                  max = [0, 1.5, 1], intensity = [1, 1], range = 20.0 }\n";
+    let mut rig = Rig::new(scene(&tiny(&format!("{FIVE_MATERIALS}{lights}"))));
+    rig.render();
+    let counters = rig.frame.counters();
+    assert_eq!(counters.longest, 1 << 20);
+    assert_eq!(counters.dropped, counters.clusters * ((1 << 20) - 1024));
+
+    let mut rig = Rig::new(scene(&tiny(&format!(
+        "{FIVE_MATERIALS}{}",
+        unranged_lights(70_000)
+    ))));
+    assert_close(&rig.render(), &oracle(&rig.scene), 0.99, 1e-4);
 }
