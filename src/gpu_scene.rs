@@ -98,14 +98,16 @@ impl GpuScene {
         let light_image = light_image(device, &lights.lights)?;
         let nodes = Buffer::with(device, "light tree", BufferUse::Storage, &lights.nodes)?;
         let records: Vec<_> = scene.materials.iter().map(record).collect();
-        let records = Buffer::with(device, "materials", BufferUse::Storage, &records)?;
+        let records = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
         let set = layout.allocate(shared::scene::SET, 1)?;
         set.get(0)
             .image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
         set.get(0).buffer(shared::scene::SCENE_LIGHT_NODES, &nodes);
-        set.get(0).buffer(shared::scene::SCENE_MATERIALS, &records);
         let textures = Textures::new(device, scene)?;
         let materials = textures.bind(&layout, scene)?;
+        for index in 0..scene.materials.len() {
+            materials.get(index).element(shared::material::MATERIAL_RECORD, &records, index);
+        }
         Ok(Self {
             set,
             materials,
@@ -221,11 +223,11 @@ fn slots(material: &Material) -> [Option<u32>; PARAMETER_COUNT] {
 }
 
 fn record(material: &Material) -> MaterialRecord {
-    MaterialRecord {
-        rows: material
-            .parameters
-            .map(|value| [value.constant[0], value.constant[1], value.constant[2], 0.0]),
+    let mut record = MaterialRecord::default();
+    for (row, value) in record.rows.iter_mut().zip(&material.parameters) {
+        row[..3].copy_from_slice(&value.constant);
     }
+    record
 }
 
 /// All triangles in one buffer, sorted by variant and material, so that pipelines change as rarely as they can.

@@ -228,13 +228,13 @@ shared! {
             SCENE_LIGHTS = 0: Sampled;
             /// [`LightNode`]s in depth-first order.
             SCENE_LIGHT_NODES = 1: Storage;
-            /// [`MaterialRecord`]s.
-            SCENE_MATERIALS = 2: Storage;
         }
-        /// Textures of a material.
+        /// A material: its textures and constants.
         material = 2 {
             /// The material's textures; unused slots hold a white texel.
             MATERIAL_SLOTS = 0: Combined[8];
+            /// Its [`MaterialRecord`].
+            MATERIAL_RECORD = 1: Uniform;
         }
         /// Rows in, rows out: how tests call the library functions of the shaders.
         probe = 0 {
@@ -353,10 +353,11 @@ shared! {
             /// Leaf: first light << LEAF_COUNT_BITS | count; inner node: 0.
             lights: uint;
         }
-        /// A material's constants; rows by `Parameter`.
+        /// A material's constants; rows by `Parameter`, and one to fill the 256 bytes to which uniform buffers may have
+        /// to be aligned.
         MaterialRecord {
             /// Constant of each row.
-            rows: vec4[15];
+            rows: vec4[16];
         }
         /// A row of the BSDF probe.
         BsdfProbeRow {

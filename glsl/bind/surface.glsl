@@ -2,7 +2,8 @@
 #ifndef BIND_SURFACE_GLSL
 #define BIND_SURFACE_GLSL
 
-layout(set = SET_scene, binding = SCENE_MATERIALS, std430) readonly buffer MaterialBlock { MaterialRecord materials[]; };
+// A uniform block of its own: lavapipe reads storage buffers lane by lane.
+layout(set = SET_material, binding = MATERIAL_RECORD, std140) uniform MaterialBlock { MaterialRecord material; };
 layout(push_constant, std430) uniform PushBlock { DrawConstants draw; };
 
 layout(constant_id = 0) const uint MODEL = MODEL_MATTE;
@@ -34,7 +35,7 @@ struct Surface {
 
 vec3 parameter(uint row, uint slot) {
   if (slot != NO_TEXTURE) return sample_slot(slot, in_uv).rgb;
-  return materials[draw.material].rows[row].xyz;
+  return material.rows[row].xyz;
 }
 
 vec3 any_tangent(vec3 n) {
