@@ -124,10 +124,6 @@ pub(super) struct RenderOptions {
 }
 
 #[derive(Debug, ClapArgs)]
-#[cfg_attr(
-    not(feature = "viewer"),
-    expect(dead_code, reason = "parsed, and answered with how to get the window")
-)]
 pub(super) struct ViewOptions {
     #[command(flatten)]
     pub(super) scene: SceneOptions,

@@ -106,7 +106,6 @@ impl Use {
 }
 
 /// A memory barrier over all buffers: `before` happens, then `after` sees it.
-#[must_use]
 pub(super) fn memory(before: Use, after: Use) -> vk::MemoryBarrier<'static> {
     vk::MemoryBarrier::default()
         .src_access_mask(before.scope().1)
