@@ -9,7 +9,7 @@ pub use timing::{PassTime, Timings};
 use crate::camera_constants::camera_constants;
 use crate::draws::{VisibleDraw, visible};
 use crate::error::Result;
-use crate::gpu::{Buffer, BufferUse, Commands, DescriptorSets, Device, Timestamps, Use};
+use crate::gpu::{Buffer, BufferUse, Commands, DescriptorSets, Device, Image, Timestamps, Use};
 use crate::gpu_scene::GpuScene;
 use crate::image::HdrImage;
 use crate::passes::aov::{Aov, Quantity};
@@ -307,6 +307,12 @@ impl Frame {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn ldr(&self) -> Result<Vec<[u8; 4]>> {
         self.targets.ldr.fetch(Use::TransferRead, Use::TransferRead)
+    }
+
+    /// The display-referred picture on the device, in use [`Use::TransferRead`].
+    #[must_use]
+    pub fn picture(&self) -> &Image {
+        &self.targets.ldr
     }
 
     /// One quantity of the surface last rendered, without jitter if the picture had one sample.

@@ -26,6 +26,17 @@ pub(super) enum Command {
   amas render scene.toml --frames 0..60 -o frame_%04d.png
   amas render scene.toml --set samples=16 --aov normal=normal.exr -o picture.png")]
     Render(RenderOptions),
+    /// Show a scene in a window and fly through it
+    #[command(after_help = "Keys:
+  W A S D     forward, left, backward, right (by place on the keyboard)
+  Q E         down, up
+  mouse drag  look around
+  wheel       fly faster or slower
+  Esc         close
+
+Example:
+  amas view scene.toml --size 1280x720 --camera main")]
+    View(ViewOptions),
     /// Compute a picture in double precision on the CPU
     #[command(
         after_help = "Example:\n  amas reference scene.toml -o reference.exr --spp 4 --error error.exr"
@@ -110,6 +121,20 @@ pub(super) struct RenderOptions {
     /// Output variable, several times: position, normal, material, light_count, direct or indirect
     #[arg(long, value_name = "NAME=FILE.exr", value_parser = parse_pair)]
     pub(super) aov: Vec<(String, String)>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct ViewOptions {
+    #[command(flatten)]
+    pub(super) scene: SceneOptions,
+    #[command(flatten)]
+    pub(super) device: DeviceOptions,
+    /// Camera to start from, by name [default: the first]
+    #[arg(long, value_name = "NAME")]
+    pub(super) camera: Option<String>,
+    /// Close after N pictures, rendered one after the other
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) frames: Option<u32>,
 }
 
 #[derive(Debug, ClapArgs)]

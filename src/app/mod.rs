@@ -11,6 +11,8 @@ mod reference;
 mod render;
 mod report;
 mod terminal;
+#[cfg(feature = "viewer")]
+mod view;
 
 use crate::error::{Error, Result};
 use crate::scene::{self, Camera, Scene};
@@ -24,6 +26,13 @@ pub fn main() -> ExitCode {
     let args = Args::parse();
     let result = match args.command.unwrap_or_default() {
         Command::Render(options) => render::run(&options),
+        #[cfg(feature = "viewer")]
+        Command::View(options) => view::run(&options),
+        #[cfg(not(feature = "viewer"))]
+        Command::View(_) => Err(Error::usage(
+            "this amas was built without the window",
+            "build it with the default feature `viewer`, or use `amas render`",
+        )),
         Command::Reference(options) => reference::run(&options),
         Command::Compare(options) => compare::run(&options),
         Command::Bench(options) => bench::run(&options),

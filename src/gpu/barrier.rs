@@ -33,6 +33,8 @@ pub enum Use {
     ColorWrite,
     /// Input attachment of a fragment shader.
     InputRead,
+    /// Shown in a window.
+    Present,
 }
 
 impl Use {
@@ -92,6 +94,8 @@ impl Use {
                 A::INPUT_ATTACHMENT_READ,
                 L::SHADER_READ_ONLY_OPTIMAL,
             ),
+            // Presenting synchronises by itself.
+            Self::Present => (S::BOTTOM_OF_PIPE, A::empty(), L::PRESENT_SRC_KHR),
         }
     }
 

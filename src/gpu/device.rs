@@ -1,11 +1,13 @@
 //! The device: chosen by what amas needs, with one queue, one command pool and the allocator.
 
 use super::allocation::Memory;
+use super::candidate::{Candidate, Presentation, candidates, choose};
 use super::instance::Instance;
-use super::requirements::{self, Facts, Report};
+use super::requirements::Report;
 use super::{Called, Commands};
 use crate::error::{Error, Result};
 use ash::vk;
+use std::ffi::CStr;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// How to open a device.
@@ -42,12 +44,15 @@ pub struct Device {
     pub(super) timestamp_period: f32,
     pub(super) timestamp_bits: u32,
     pub(super) max_anisotropy: Option<f32>,
+    #[cfg(feature = "viewer")]
+    pub(super) physical: vk::PhysicalDevice,
     info: DeviceInfo,
     queue: vk::Queue,
     pool: vk::CommandPool,
     // Queue and pool are used by one thread at a time.
     turn: Mutex<()>,
-    instance: Instance,
+    // Shared with the surface, which may be destroyed later than the device.
+    instance: Arc<Instance>,
 }
 
 impl Device {
@@ -56,10 +61,19 @@ impl Device {
     /// # Errors
     /// [`Error::NoDevice`] where none answers or none suffices, with the reason for each.
     pub fn open(options: &Options) -> Result<Arc<Self>> {
-        let instance = Instance::new(options.validate)?;
-        let candidates = candidates(&instance)?;
+        Self::open_on(Instance::new(options.validate, &[])?, options, None)
+    }
+
+    /// Opens a device that can also present, where a presentation is given.
+    pub(super) fn open_on(
+        instance: Arc<Instance>,
+        options: &Options,
+        presentation: Option<&dyn Presentation>,
+    ) -> Result<Arc<Self>> {
+        let candidates = candidates(&instance, presentation)?;
         let chosen = choose(candidates, options.device.as_deref())?;
-        Self::create(instance, chosen).map(Arc::new)
+        let extensions = presentation.map_or(&[][..], |_| &[ash::khr::swapchain::NAME]);
+        Self::create(instance, chosen, extensions).map(Arc::new)
     }
 
     /// Every device of the machine, with what it lacks.
@@ -67,14 +81,19 @@ impl Device {
     /// # Errors
     /// [`Error::NoDevice`] without a loader.
     pub fn enumerate() -> Result<Vec<DeviceInfo>> {
-        let instance = Instance::new(false)?;
-        Ok(candidates(&instance)?
+        let instance = Instance::new(false, &[])?;
+        Ok(candidates(&instance, None)?
             .into_iter()
             .map(|candidate| candidate.info)
             .collect())
     }
 
-    fn create(instance: Instance, chosen: Candidate) -> Result<Self> {
+    fn create(
+        instance: Arc<Instance>,
+        chosen: Candidate,
+        extensions: &[&'static CStr],
+    ) -> Result<Self> {
+        let extensions: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
         let priorities = [1.0];
         let queues = [vk::DeviceQueueCreateInfo::default()
             .queue_family_index(chosen.family)
@@ -87,8 +106,9 @@ impl Device {
         };
         let info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
+            .enabled_extension_names(&extensions)
             .enabled_features(&features);
-        // SAFETY: the queue family exists, and only supported features are turned on.
+        // SAFETY: the queue family exists, and only supported features and extensions are turned on.
         let raw = unsafe { instance.raw.create_device(chosen.physical, &info, None) }
             .called("vkCreateDevice")?;
         // SAFETY: queue 0 of the family was asked for above.
@@ -110,6 +130,8 @@ impl Device {
             timestamp_bits: chosen.timestamp_bits,
             max_anisotropy: (supported.sampler_anisotropy == vk::TRUE)
                 .then_some(chosen.limits.max_sampler_anisotropy),
+            #[cfg(feature = "viewer")]
+            physical: chosen.physical,
             info: chosen.info,
             queue,
             pool,
@@ -195,6 +217,18 @@ impl Device {
         unsafe { self.raw.queue_wait_idle(self.queue) }.called("vkQueueWaitIdle")
     }
 
+    /// Hands the queue to `call`, which no other thread uses meanwhile.
+    #[cfg(feature = "viewer")]
+    pub(super) fn with_queue<T>(&self, call: impl FnOnce(vk::Queue) -> T) -> T {
+        let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
+        call(self.queue)
+    }
+
+    #[cfg(feature = "viewer")]
+    pub(super) fn swapchain_loader(&self) -> ash::khr::swapchain::Device {
+        ash::khr::swapchain::Device::new(&self.instance.raw, &self.raw)
+    }
+
     /// Names an object in captures and validation messages.
     pub(super) fn name<H: vk::Handle>(&self, handle: H, name: &str) {
         let (Some(debug), Ok(name)) = (&self.debug, std::ffi::CString::new(name)) else {
@@ -216,141 +250,4 @@ impl Drop for Device {
         // SAFETY: as above.
         unsafe { self.raw.destroy_device(None) };
     }
-}
-
-struct Candidate {
-    physical: vk::PhysicalDevice,
-    info: DeviceInfo,
-    limits: vk::PhysicalDeviceLimits,
-    family: u32,
-    timestamp_bits: u32,
-    rank: u32,
-}
-
-fn candidates(instance: &Instance) -> Result<Vec<Candidate>> {
-    // SAFETY: the instance is alive.
-    let devices = unsafe { instance.raw.enumerate_physical_devices() }
-        .called("vkEnumeratePhysicalDevices")?;
-    Ok(devices
-        .into_iter()
-        .map(|physical| describe(&instance.raw, physical))
-        .collect())
-}
-
-fn describe(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Candidate {
-    let mut driver = vk::PhysicalDeviceDriverProperties::default();
-    let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
-    // SAFETY: the device belongs to the instance; the chain outlives the call.
-    unsafe { instance.get_physical_device_properties2(physical, &mut properties) };
-    let properties = properties.properties;
-    // SAFETY: as above.
-    let queues = unsafe { instance.get_physical_device_queue_family_properties(physical) };
-    let family = requirements::queue_family(&queues).unwrap_or(0);
-    let timestamp_bits = queues
-        .get(family as usize)
-        .map_or(0, |queue| queue.timestamp_valid_bits);
-    let (kind, rank) = match properties.device_type {
-        vk::PhysicalDeviceType::DISCRETE_GPU => ("discrete", 0),
-        vk::PhysicalDeviceType::INTEGRATED_GPU => ("integrated", 1),
-        vk::PhysicalDeviceType::VIRTUAL_GPU => ("virtual", 2),
-        vk::PhysicalDeviceType::CPU => ("cpu", 3),
-        _ => ("other", 4),
-    };
-    let text = |raw: Result<&std::ffi::CStr, _>| {
-        raw.map_or_else(|_| "?".into(), |s| s.to_string_lossy().into_owned())
-    };
-    let report = requirements::check(&Facts {
-        instance,
-        device: physical,
-        properties,
-        queues,
-    });
-    let info = DeviceInfo {
-        name: text(properties.device_name_as_c_str()),
-        driver: format!(
-            "{} {}",
-            text(driver.driver_name_as_c_str()),
-            text(driver.driver_info_as_c_str())
-        ),
-        api: requirements::version_text(properties.api_version),
-        kind,
-        report,
-    };
-    Candidate {
-        physical,
-        info,
-        limits: properties.limits,
-        family,
-        timestamp_bits,
-        rank,
-    }
-}
-
-fn choose(mut candidates: Vec<Candidate>, wanted: Option<&str>) -> Result<Candidate> {
-    if candidates.is_empty() {
-        return Err(Error::NoDevice {
-            cause: "the machine has no Vulkan driver".into(),
-            remedy: "run ./setup, or install a driver; mesa-vulkan-drivers renders on the CPU"
-                .into(),
-        });
-    }
-    let names: Vec<String> = candidates
-        .iter()
-        .enumerate()
-        .map(|(i, candidate)| format!("{i}: {}", candidate.info.name))
-        .collect();
-    let index = match wanted {
-        Some(wanted) => find(&candidates, wanted),
-        None => (0..candidates.len())
-            .filter(|&i| candidates[i].info.report.missing().is_none())
-            .min_by_key(|&i| candidates[i].rank),
-    };
-    match index {
-        Some(index) => {
-            let chosen = candidates.swap_remove(index);
-            match chosen.info.report.missing() {
-                None => Ok(chosen),
-                Some(missing) => Err(unusable(&format!("{}: {missing}", chosen.info.name))),
-            }
-        }
-        None if wanted.is_some() => Err(Error::NoDevice {
-            cause: format!(
-                "no device is named {:?}; there are {}",
-                wanted.unwrap_or_default(),
-                names.join(", ")
-            ),
-            remedy: "choose one of these with --device NAME or --device INDEX".into(),
-        }),
-        None => {
-            let reasons: Vec<String> = candidates
-                .iter()
-                .map(|c| {
-                    format!(
-                        "{}: {}",
-                        c.info.name,
-                        c.info.report.missing().unwrap_or_default()
-                    )
-                })
-                .collect();
-            Err(unusable(&reasons.join("; ")))
-        }
-    }
-}
-
-fn unusable(cause: &str) -> Error {
-    Error::NoDevice {
-        cause: cause.into(),
-        remedy: "update the driver, or install mesa-vulkan-drivers".into(),
-    }
-}
-
-fn find(candidates: &[Candidate], wanted: &str) -> Option<usize> {
-    if let Ok(index) = wanted.parse::<usize>() {
-        return (index < candidates.len()).then_some(index);
-    }
-    let wanted = wanted.to_lowercase();
-    candidates.iter().position(|candidate| {
-        candidate.info.name.to_lowercase().contains(&wanted)
-            || candidate.info.driver.to_lowercase().contains(&wanted)
-    })
 }

@@ -214,7 +214,9 @@ impl Drop for Image {
 
 fn usage(used: Use) -> vk::ImageUsageFlags {
     match used {
-        Use::Nothing | Use::HostRead | Use::IndirectRead => vk::ImageUsageFlags::empty(),
+        Use::Nothing | Use::HostRead | Use::IndirectRead | Use::Present => {
+            vk::ImageUsageFlags::empty()
+        }
         Use::TransferWrite => vk::ImageUsageFlags::TRANSFER_DST,
         Use::TransferRead => vk::ImageUsageFlags::TRANSFER_SRC,
         Use::ComputeWrite => vk::ImageUsageFlags::STORAGE,
@@ -231,6 +233,15 @@ fn usage(used: Use) -> vk::ImageUsageFlags {
 impl Commands {
     /// Moves an image from one use to the next; from [`Use::Nothing`] its contents are lost.
     pub fn transition(&mut self, image: &Image, before: Use, after: Use) {
+        self.transition_raw((image.raw, image.everything()), before, after);
+    }
+
+    pub(super) fn transition_raw(
+        &mut self,
+        (image, range): (vk::Image, vk::ImageSubresourceRange),
+        before: Use,
+        after: Use,
+    ) {
         let (src_stage, src_access, old) = before.scope();
         let (dst_stage, dst_access, new) = after.scope();
         let barrier = vk::ImageMemoryBarrier::default()
@@ -240,8 +251,8 @@ impl Commands {
             .new_layout(new)
             .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
             .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
-            .image(image.raw)
-            .subresource_range(image.everything());
+            .image(image)
+            .subresource_range(range);
         // SAFETY: the image is alive; layouts come from the table of uses.
         unsafe {
             self.device.raw.cmd_pipeline_barrier(

@@ -35,39 +35,45 @@ pub(super) struct Instance {
     pub(super) debug_utils: bool,
     messenger: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     // The loader's library must outlive every handle made through it.
-    _entry: ash::Entry,
+    pub(super) entry: ash::Entry,
 }
 
 impl Instance {
-    /// Loads Vulkan. With `validate`, turns on the validation layers with synchronisation checks.
-    pub(super) fn new(validate: bool) -> Result<Self> {
+    /// Loads Vulkan with these extensions. With `validate`, turns on the validation layers with synchronisation checks.
+    pub(super) fn new(validate: bool, extensions: &[&'static CStr]) -> Result<Arc<Self>> {
         // SAFETY: the loader's library is trusted to be Vulkan's; it stays loaded as long as `Instance`.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoDevice {
             cause: format!("the Vulkan loader cannot be loaded ({error})"),
             remedy: "run ./setup, or install libvulkan1 and a driver such as mesa-vulkan-drivers"
                 .into(),
         })?;
-        let debug_utils = has_extension(&entry, ash::ext::debug_utils::NAME)?;
+        let found = available_extensions(&entry)?;
+        let debug_utils = has(&found, ash::ext::debug_utils::NAME);
+        if let Some(missing) = extensions.iter().find(|name| !has(&found, name)) {
+            return Err(missing_extension(missing));
+        }
         if validate {
             require_validation(&entry)?;
         }
-        let raw = create(&entry, validate, debug_utils)?;
+        let mut wanted = extensions.to_vec();
+        wanted.extend(debug_utils.then_some(ash::ext::debug_utils::NAME));
+        let raw = create(&entry, validate, &wanted)?;
         let mut instance = Self {
             raw,
             log: None,
             debug_utils,
             messenger: None,
-            _entry: entry,
+            entry,
         };
         if validate {
             instance.listen()?;
         }
-        Ok(instance)
+        Ok(Arc::new(instance))
     }
 
     fn listen(&mut self) -> Result<()> {
         let log = Arc::new(ValidationLog::default());
-        let loader = ash::ext::debug_utils::Instance::new(&self._entry, &self.raw);
+        let loader = ash::ext::debug_utils::Instance::new(&self.entry, &self.raw);
         let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
             .message_severity(
                 vk::DebugUtilsMessageSeverityFlagsEXT::ERROR
@@ -97,19 +103,18 @@ impl Drop for Instance {
     }
 }
 
-fn create(entry: &ash::Entry, validate: bool, debug_utils: bool) -> Result<ash::Instance> {
+fn create(entry: &ash::Entry, validate: bool, extensions: &[&CStr]) -> Result<ash::Instance> {
     let application = vk::ApplicationInfo::default()
         .application_name(c"amas")
         .engine_name(c"amas")
         .api_version(vk::API_VERSION_1_2);
     let layers = [VALIDATION_LAYER.as_ptr()];
-    let extensions = [ash::ext::debug_utils::NAME.as_ptr()];
+    let extensions: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
     let enabled = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
-    let mut info = vk::InstanceCreateInfo::default().application_info(&application);
-    if debug_utils {
-        info = info.enabled_extension_names(&extensions);
-    }
+    let mut info = vk::InstanceCreateInfo::default()
+        .application_info(&application)
+        .enabled_extension_names(&extensions);
     if validate {
         info = info.enabled_layer_names(&layers).push_next(&mut features);
     }
@@ -120,13 +125,27 @@ fn create(entry: &ash::Entry, validate: bool, debug_utils: bool) -> Result<ash::
     })
 }
 
-fn has_extension(entry: &ash::Entry, name: &CStr) -> Result<bool> {
+fn available_extensions(entry: &ash::Entry) -> Result<Vec<vk::ExtensionProperties>> {
     // SAFETY: no layer name is passed; the loader fills an array that ash owns.
-    let found = unsafe { entry.enumerate_instance_extension_properties(None) }
-        .called("vkEnumerateInstanceExtensionProperties")?;
-    Ok(found
+    unsafe { entry.enumerate_instance_extension_properties(None) }
+        .called("vkEnumerateInstanceExtensionProperties")
+}
+
+/// Whether an extension is among those found.
+pub(super) fn has(found: &[vk::ExtensionProperties], name: &CStr) -> bool {
+    found
         .iter()
-        .any(|extension| extension.extension_name_as_c_str() == Ok(name)))
+        .any(|extension| extension.extension_name_as_c_str() == Ok(name))
+}
+
+fn missing_extension(name: &CStr) -> Error {
+    Error::NoDevice {
+        cause: format!(
+            "no Vulkan driver of the machine has {}",
+            name.to_string_lossy()
+        ),
+        remedy: "update the driver, or install mesa-vulkan-drivers".into(),
+    }
 }
 
 fn require_validation(entry: &ash::Entry) -> Result<()> {

@@ -9,6 +9,7 @@
 mod allocation;
 mod barrier;
 mod buffer;
+mod candidate;
 mod command;
 mod descriptor;
 mod device;
@@ -20,6 +21,10 @@ mod render_pass;
 mod requirements;
 mod sampler;
 mod shader;
+#[cfg(feature = "viewer")]
+mod surface;
+#[cfg(feature = "viewer")]
+mod swapchain;
 
 pub use barrier::Use;
 pub use buffer::{Buffer, BufferUse};
@@ -35,6 +40,8 @@ pub use render_pass::{Attachment, Framebuffer, Outside, RenderPass, Subpass};
 pub use requirements::{Check, Report};
 pub use sampler::Sampler;
 pub use shader::{Shader, Stage, shaders};
+#[cfg(feature = "viewer")]
+pub use swapchain::{Shown, Swapchain};
 
 pub(crate) use ash::vk::Format;
 

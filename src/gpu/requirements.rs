@@ -195,7 +195,7 @@ fn api_version(facts: &Facts<'_>) -> Check {
 }
 
 fn queue(facts: &Facts<'_>) -> Check {
-    let ok = queue_family(&facts.queues).is_some();
+    let ok = queue_families(&facts.queues).next().is_some();
     Check {
         name: "a queue for graphics and compute".into(),
         found: if ok { "one" } else { "none" }.into(),
@@ -204,12 +204,12 @@ fn queue(facts: &Facts<'_>) -> Check {
     }
 }
 
-/// First family with graphics and compute.
-pub(super) fn queue_family(queues: &[vk::QueueFamilyProperties]) -> Option<u32> {
+/// Families with graphics and compute.
+pub(super) fn queue_families(queues: &[vk::QueueFamilyProperties]) -> impl Iterator<Item = u32> {
     let wanted = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
     (0_u32..)
         .zip(queues)
-        .find(|(_, family)| family.queue_flags.contains(wanted))
+        .filter(move |(_, family)| family.queue_flags.contains(wanted))
         .map(|(index, _)| index)
 }
 

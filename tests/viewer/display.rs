@@ -1,0 +1,164 @@
+//! An X server of the tests' own, its screen, and a client that does what a user and a window manager do.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::os::unix::net::UnixStream;
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+
+/// A running Xvfb.
+pub(super) struct Display {
+    /// For the environment variable DISPLAY.
+    pub(super) name: String,
+    server: Child,
+    folder: tempfile::TempDir,
+}
+
+impl Display {
+    pub(super) fn start() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "320x240x24"])
+            .args(["-nolisten", "tcp", "-fbdir"])
+            .arg(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap_or_else(|error| panic!("Xvfb: {error}; run ./setup, which installs it"));
+        let mut number = String::new();
+        let answer = BufReader::new(server.stdout.take().unwrap()).read_line(&mut number);
+        let display = Self {
+            name: format!(":{}", number.trim()),
+            server,
+            folder,
+        };
+        assert!(answer.unwrap() > 0, "Xvfb does not start");
+        display
+    }
+
+    /// The screen's upper left corner, row by row.
+    pub(super) fn corner(&self, [width, height]: [usize; 2]) -> Vec<[u8; 3]> {
+        // An XWD file: a header of big-endian words, a colour map, rows of pixels.
+        let file = std::fs::read(self.folder.path().join("Xvfb_screen0")).unwrap();
+        let word =
+            |index: usize| u32::from_be_bytes(file[4 * index..][..4].try_into().unwrap()) as usize;
+        let (header, row, colors) = (word(0), word(12), word(19));
+        assert_eq!((word(7), word(11)), (0, 32), "pixels are not BGRX");
+        let pixels = &file[header + 12 * colors..];
+        (0..height)
+            .flat_map(|y| pixels[y * row..][..4 * width].chunks_exact(4))
+            .map(|pixel| [pixel[2], pixel[1], pixel[0]])
+            .collect()
+    }
+
+    pub(super) fn connect(&self) -> Client {
+        Client::new(&self.name)
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+        // What Xvfb removes itself, unless it is killed.
+        let number = &self.name[1..];
+        let _ = std::fs::remove_file(format!("/tmp/.X{number}-lock"));
+        let _ = std::fs::remove_file(format!("/tmp/.X11-unix/X{number}"));
+    }
+}
+
+/// As much of the X protocol as it takes to resize a window and to press a key.
+pub(super) struct Client {
+    stream: UnixStream,
+    root: u32,
+    xtest: u8,
+}
+
+impl Client {
+    fn new(display: &str) -> Self {
+        let socket = PathBuf::from(format!("/tmp/.X11-unix/X{}", &display[1..]));
+        let mut stream = UnixStream::connect(socket).unwrap();
+        // Little-endian, protocol 11, no authorisation.
+        stream
+            .write_all(&[b'l', 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0])
+            .unwrap();
+        let mut head = [0; 8];
+        stream.read_exact(&mut head).unwrap();
+        assert_eq!(head[0], 1, "the X server refuses");
+        let mut setup = vec![0; 4 * usize::from(half(&head, 6))];
+        stream.read_exact(&mut setup).unwrap();
+        // The first screen follows the vendor's name and the pixmap formats.
+        let vendor = usize::from(half(&setup, 16)).next_multiple_of(4);
+        let screen = 32 + vendor + 8 * usize::from(setup[21]);
+        let mut client = Self {
+            stream,
+            root: full(&setup, screen),
+            xtest: 0,
+        };
+        let extension = client.ask(98, 0, b"\x05\0\0\0XTEST\0\0\0");
+        assert_eq!(extension[8], 1, "the X server has no XTEST");
+        client.xtest = extension[9];
+        client
+    }
+
+    pub(super) fn window_of_size(&mut self, size: [u16; 2]) -> Option<u32> {
+        let tree = self.ask(15, 0, &self.root.to_le_bytes());
+        let windows: Vec<u32> = (0..usize::from(half(&tree, 16)))
+            .map(|i| full(&tree, 32 + 4 * i))
+            .collect();
+        windows.into_iter().find(|window| {
+            let geometry = self.ask(14, 0, &window.to_le_bytes());
+            [half(&geometry, 16), half(&geometry, 18)] == size
+        })
+    }
+
+    pub(super) fn resize(&mut self, window: u32, [width, height]: [u32; 2]) {
+        const WIDTH_AND_HEIGHT: u32 = 4 | 8;
+        self.send(12, 0, &words(&[window, WIDTH_AND_HEIGHT, width, height]));
+    }
+
+    pub(super) fn focus(&mut self, window: u32) {
+        const REVERT_TO_POINTER: u8 = 1;
+        self.send(42, REVERT_TO_POINTER, &words(&[window, 0]));
+    }
+
+    /// Presses or releases a key, as the hardware would.
+    pub(super) fn key(&mut self, code: u8, down: bool) {
+        let event = u32::from_le_bytes([if down { 2 } else { 3 }, code, 0, 0]);
+        self.send(self.xtest, 2, &words(&[event, 0, self.root, 0, 0, 0, 0, 0]));
+    }
+
+    fn send(&mut self, opcode: u8, detail: u8, body: &[u8]) {
+        let [low, high] = (1 + body.len() as u16 / 4).to_le_bytes();
+        let request = [&[opcode, detail, low, high], body].concat();
+        self.stream.write_all(&request).unwrap();
+    }
+
+    /// Sends a request and waits for its reply.
+    fn ask(&mut self, opcode: u8, detail: u8, body: &[u8]) -> Vec<u8> {
+        self.send(opcode, detail, body);
+        loop {
+            let mut reply = vec![0; 32];
+            self.stream.read_exact(&mut reply).unwrap();
+            assert_ne!(reply[0], 0, "the X server reports error {}", reply[1]);
+            // Anything else is an event.
+            if reply[0] == 1 {
+                let mut rest = vec![0; 4 * full(&reply, 4) as usize];
+                self.stream.read_exact(&mut rest).unwrap();
+                reply.extend(rest);
+                return reply;
+            }
+        }
+    }
+}
+
+fn words(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+fn half(bytes: &[u8], at: usize) -> u16 {
+    u16::from_le_bytes([bytes[at], bytes[at + 1]])
+}
+
+fn full(bytes: &[u8], at: usize) -> u32 {
+    u32::from(half(bytes, at)) | u32::from(half(bytes, at + 2)) << 16
+}

@@ -1,0 +1,186 @@
+//! `amas view` on a display of its own: what is on screen, what keys and sizes do, and how it ends.
+//!
+//! The tests bring their own X server, even on a desktop: they read the screen back, and no window pops up.
+#![cfg(feature = "viewer")]
+#![allow(clippy::unwrap_used, reason = "a test that panics fails")]
+
+mod display;
+
+use display::Display;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// Both kinds of point light, and no symmetry that hides a flip or a swap of colours.
+const SCENE: &str = r#"
+[render]
+size = [96, 64]
+background = [0.02, 0.05, 0.2]
+
+[[camera]]
+name = "main"
+position = [0.5, 1, 3]
+target = [0, 0.4, 0]
+vertical_fov = 45
+
+[[material]]
+name = "clay"
+type = "plastic"
+diffuse = [0.6, 0.3, 0.2]
+
+[[mesh]]
+shape = "plane"
+size = [4, 4]
+material = "clay"
+
+[[mesh]]
+shape = "box"
+size = [0.6, 0.6, 0.6]
+translate = [0.4, 0.3, 0]
+material = "clay"
+
+[[light]]
+type = "point"
+position = [-0.5, 1, 0.5]
+intensity = [3, 2, 1]
+range = 4
+
+[[light]]
+type = "point"
+position = [2, 2, 2]
+intensity = [1, 1, 2]
+"#;
+
+/// Longest wait for anything; validation makes the first picture slow.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+const ESCAPE: u8 = 9;
+const W: u8 = 25;
+
+fn amas(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_amas"));
+    command
+        .args(arguments)
+        .env_remove("AMAS_DEVICE")
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+fn scene(folder: &Path) -> PathBuf {
+    let path = folder.join("scene.toml");
+    std::fs::write(&path, SCENE).unwrap();
+    path
+}
+
+/// The picture that `amas render` makes of the scene.
+fn rendered(scene: &Path, size: [u32; 2]) -> Vec<[u8; 3]> {
+    let picture = scene.with_extension("png");
+    let size = format!("{}x{}", size[0], size[1]);
+    let output = amas(&["render", "--device", "llvmpipe", "--size", &size, "-o"])
+        .args([&picture, scene])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let picture = image::open(picture).unwrap().into_rgb8();
+    picture.pixels().map(|pixel| pixel.0).collect()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// A running `amas view --validate`; killed if its test fails.
+struct View(Option<Child>);
+
+impl View {
+    fn open(display: &Display, scene: &Path, arguments: &[&str]) -> Self {
+        let child = amas(&["view", "--device", "llvmpipe", "--validate"])
+            .arg(scene)
+            .args(arguments)
+            .env("DISPLAY", &display.name)
+            .spawn()
+            .unwrap();
+        Self(Some(child))
+    }
+
+    /// Waits for its end, which has to be a good one.
+    fn ends_well(mut self) {
+        let output = self.0.take().unwrap().wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert_eq!(stderr(&output), "");
+    }
+}
+
+impl Drop for View {
+    fn drop(&mut self) {
+        if let Some(mut child) = self.0.take() {
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+    }
+}
+
+#[track_caller]
+fn wait_until(what: &str, mut holds: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !holds() {
+        assert!(start.elapsed() < PATIENCE, "in vain waited for {what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[test]
+fn the_window_shows_the_rendered_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let [first, larger] = [[96, 64], [120, 80]].map(|size| rendered(&scene, size));
+    let display = Display::start();
+    let mut client = display.connect();
+    let view = View::open(&display, &scene, &[]);
+    wait_until("the picture", || display.corner([96, 64]) == first);
+
+    let window = client.window_of_size([96, 64]).unwrap();
+    client.resize(window, [120, 80]);
+    wait_until("the larger picture", || display.corner([120, 80]) == larger);
+
+    client.focus(window);
+    client.key(W, true);
+    wait_until("a step forward", || display.corner([120, 80]) != larger);
+    client.key(W, false);
+    client.key(ESCAPE, true);
+    client.key(ESCAPE, false);
+    view.ends_well();
+}
+
+#[test]
+fn the_window_closes_after_the_last_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let display = Display::start();
+    View::open(&display, &scene, &["--frames", "20"]).ends_well();
+}
+
+#[test]
+fn without_a_display_the_advice_is_to_render() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = amas(&["view"]).arg(scene(folder.path())).output().unwrap();
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(3), "{text}");
+    for part in ["no display", "WAYLAND_DISPLAY", "remedy", "amas render"] {
+        assert!(text.contains(part), "{part} is not in: {text}");
+    }
+}
+
+#[test]
+fn help_lists_the_keys() {
+    let output = amas(&["view", "--help"]).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    for part in ["W A S D", "Q E", "drag", "wheel", "Esc", "Example"] {
+        assert!(text.contains(part), "{part} is not in: {text}");
+    }
+}
