@@ -62,7 +62,7 @@ pub struct GpuScene {
     // What the sets refer to.
     _textures: Textures,
     _records: Buffer<MaterialRecord>,
-    _nodes: Buffer<LightNode>,
+    _nodes: Image,
     _light_image: Image,
 }
 
@@ -85,13 +85,14 @@ impl GpuScene {
         let (vertices, triangles, draws) = geometry(scene, &of_mesh);
         let lights = LightTree::new(&scene.point_lights);
         let light_image = light_image(device, &lights.lights)?;
-        let nodes = Buffer::with(device, "light tree", BufferUse::Storage, &lights.nodes)?;
+        let nodes = node_image(device, &lights.nodes)?;
         let records: Vec<_> = scene.materials.iter().map(record).collect();
         let records = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
         let set = layout.allocate(shared::scene::SET, 1)?;
         set.get(0)
             .image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
-        set.get(0).buffer(shared::scene::SCENE_LIGHT_NODES, &nodes);
+        set.get(0)
+            .image(shared::scene::SCENE_LIGHT_NODES, &nodes, Use::Texture);
         let textures = Textures::new(device, scene)?;
         let materials = textures.bind(&layout, scene)?;
         for index in 0..scene.materials.len() {
@@ -318,6 +319,27 @@ fn light_image(device: &Arc<Device>, lights: &[PointLight]) -> Result<Image> {
             format: Format::R32G32B32A32_SFLOAT,
             size: [2 * shared::LIGHTS_PER_ROW, height as u32],
             layers: Some(layers as u32),
+            mips: 1,
+            uses: &[Use::TransferWrite, Use::Texture],
+        },
+    )?;
+    image.upload(&[&texels], Use::Texture)?;
+    Ok(image)
+}
+
+/// The tree as two RGBA32UI texels a node.
+fn node_image(device: &Arc<Device>, nodes: &[LightNode]) -> Result<Image> {
+    let row = 1 << shared::NODES_PER_ROW_LOG2;
+    let rows = nodes.len().div_ceil(row).max(1);
+    let mut texels = nodes.to_vec();
+    texels.resize(rows * row, LightNode::default());
+    let image = Image::new(
+        device,
+        &ImageDescription {
+            name: "light tree",
+            format: Format::R32G32B32A32_UINT,
+            size: [2 * row as u32, rows as u32],
+            layers: None,
             mips: 1,
             uses: &[Use::TransferWrite, Use::Texture],
         },

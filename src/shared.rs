@@ -141,6 +141,8 @@ shared! {
         LIST_WIDTH_LOG2 = 10;
         /// log2 of the rows of a layer of light lists.
         LIST_HEIGHT_LOG2 = 9;
+        /// log2 of the nodes across the texture of the light tree.
+        NODES_PER_ROW_LOG2 = 8;
         /// Lights of a leaf of the light tree; at most 32, one bit each.
         LEAF_LIGHTS = 32;
         /// Bits of a leaf's light count in `LightNode::lights`.
@@ -226,8 +228,8 @@ shared! {
         scene = 1 {
             /// Lights, two texels each.
             SCENE_LIGHTS = 0: Sampled;
-            /// [`LightNode`]s in depth-first order.
-            SCENE_LIGHT_NODES = 1: Storage;
+            /// [`LightNode`]s in depth-first order, two texels each.
+            SCENE_LIGHT_NODES = 1: Sampled;
         }
         /// A material: its textures and constants.
         material = 2 {

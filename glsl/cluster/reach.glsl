@@ -5,7 +5,7 @@
 // lavapipe ends an invocation's loops after 65,535 iterations in all. A walk over a million lights therefore has one
 // iteration a node, 37,450 at most, and none a light: a leaf's tests are unrolled.
 layout(local_size_x = LINEAR_GROUP) in;
-layout(set = SET_scene, binding = SCENE_LIGHT_NODES, std430) readonly buffer NodeBlock { LightNode nodes[]; };
+layout(set = SET_scene, binding = SCENE_LIGHT_NODES) uniform utexture2D light_nodes;
 
 // Keeps a light whose window is 0 to the last bit rather than lose one to rounding.
 const float REACH = 1.00001;
@@ -21,18 +21,26 @@ uint leaf_hits(uint first, uint count, vec3 lower, vec3 upper) {
   return count == LEAF_LIGHTS ? hits : hits & ((1u << count) - 1u);
 }
 
+// A texture, not a storage buffer, for the reason given at the lights; of integers, which no device rounds.
+LightNode node_at(uint index) {
+  ivec2 texel = ivec2((index & ((1u << NODES_PER_ROW_LOG2) - 1u)) << 1, index >> NODES_PER_ROW_LOG2);
+  uvec4 lower = texelFetch(light_nodes, texel, 0);
+  uvec4 upper = texelFetch(light_nodes, texel + ivec2(1, 0), 0);
+  return LightNode(uintBitsToFloat(lower.xyz), lower.w, uintBitsToFloat(upper.xyz), upper.w);
+}
+
 void visit_lights(vec3 lower, vec3 upper) {
-  uint node = 0u;
-  while (node < frame.node_count) {
-    if (any(greaterThan(nodes[node].lower, upper)) || any(lessThan(nodes[node].upper, lower))) {
-      node = nodes[node].skip;
+  uint index = 0u;
+  while (index < frame.node_count) {
+    LightNode node = node_at(index);
+    if (any(greaterThan(node.lower, upper)) || any(lessThan(node.upper, lower))) {
+      index = node.skip;
       continue;
     }
-    uint lights = nodes[node].lights;
-    if (lights != 0u) {
-      uint first = lights >> LEAF_COUNT_BITS;
-      ON_HITS(first, leaf_hits(first, lights & ((1u << LEAF_COUNT_BITS) - 1u), lower, upper))
+    if (node.lights != 0u) {
+      uint first = node.lights >> LEAF_COUNT_BITS;
+      ON_HITS(first, leaf_hits(first, node.lights & ((1u << LEAF_COUNT_BITS) - 1u), lower, upper))
     }
-    ++node;
+    ++index;
   }
 }
