@@ -3,16 +3,37 @@
 //! The data flows one way:
 //!
 //! ```text
-//! scene file ─▶ Scene (plain data) ─▶ GpuScene ─┐      ┌──────────────── Frame ────────────────┐
-//!                                               ├────▶ │ prepass → cluster → direct → indirect → present │ ─▶ HdrImage, Timings
-//!              camera, settings ─▶ FrameInputs ─┘      └───────────────────────────────────────┘
-//!                    └──▶ reference (f64, no Vulkan) ─▶ compare
+//! scene file ─▶ Scene ───────▶ GpuScene ──┐      ┌───────────────────── Frame ─────────────────────┐
+//!               plain data     on device  ├────▶ │ prepass → cluster → direct → indirect → present │ ─▶ HdrImage, Timings
+//! camera, settings ────────▶ FrameInputs ─┘      └─────────────────────────────────────────────────┘         │
+//!               └──▶ reference (f64, no Vulkan) ───────────────────────────────────────────────────▶ compare
 //! ```
+//!
+//! Modules import only from those above them:
+//!
+//! | module | what |
+//! | --- | --- |
+//! | [`shared`] | what Rust and GLSL both know, declared once |
+//! | [`error`] | the one error type: cause, remedy, exit status |
+//! | [`mod@image`] | scene-linear pictures and their files |
+//! | [`mod@compare`] | error figures between two pictures |
+//! | [`scene`] | what the world is, as plain data, and how it is loaded |
+//! | [`mod@reference`] | the oracle in double precision, without Vulkan |
+//! | [`gpu`] | thin safe layer over `ash`, the only module with `unsafe` |
+//! | [`light_tree`] | lights in Hilbert order, and the tree over them |
+//! | [`camera_constants`] | from a camera to what the shaders know of it |
+//! | [`gpu_scene`] | the scene on the device |
+//! | [`targets`] | every image the frame renders into |
+//! | [`passes`] | one file a pass |
+//! | [`frame`] | the frame: passes in order, and the barriers between them |
+//! | [`probe`] | how tests call the shaders' library |
+//! | [`app`] | the subcommands |
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics fails"))]
 
 pub mod app;
 pub mod camera_constants;
 pub mod compare;
+pub mod draws;
 pub mod error;
 pub mod frame;
 #[allow(unsafe_code, reason = "the one layer that calls Vulkan")]

@@ -1,17 +1,17 @@
 //! Point lights in the order the device wants them, and the tree over that order.
 //!
 //! 1. Lights with a range come first, then those without; each kind along a Hilbert curve through its bounds.
-//! 2. Every 16 lights with a range make a leaf, every 8 nodes a parent; a node's box holds its lights' spheres.
+//! 2. Every 32 lights with a range make a leaf, every 8 nodes a parent; a node's box holds its lights' spheres.
 //! 3. Nodes lie in depth-first order, each with the index of the node that follows where it is missed: a walk needs
 //!    no stack.
 
 use crate::scene::PointLight;
-use crate::shared::{LEAF_COUNT_BITS, LightNode};
+use crate::shared::{LEAF_COUNT_BITS, LEAF_LIGHTS, LightNode};
 use glam::Vec3;
 use rayon::prelude::*;
 
 /// Lights of a leaf.
-const LEAF: usize = 16;
+const LEAF: usize = LEAF_LIGHTS as usize;
 /// Children of an inner node.
 const FAN: usize = 8;
 /// Bits per axis of the Hilbert curve.
@@ -175,9 +175,9 @@ mod tests {
                 assert!(node.skip as usize > i && node.skip as usize <= tree.nodes.len());
                 for below in &tree.nodes[i..node.skip as usize] {
                     let first = (below.lights >> LEAF_COUNT_BITS) as usize;
-                    for light in first..first + (below.lights & 63) as usize {
-                        seen[light] += u32::from(std::ptr::eq(below, node));
-                        let place = tree.lights[light];
+                    let leaf = first..first + (below.lights & 63) as usize;
+                    for (place, seen) in tree.lights[leaf.clone()].iter().zip(&mut seen[leaf]) {
+                        *seen += u32::from(std::ptr::eq(below, node));
                         let range = place.range.unwrap();
                         assert!(place.position.cmpge(Vec3::from(node.lower) + range).all());
                         assert!(place.position.cmple(Vec3::from(node.upper) - range).all());

@@ -141,6 +141,8 @@ shared! {
         LIST_WIDTH_LOG2 = 10;
         /// log2 of the rows of a layer of light lists.
         LIST_HEIGHT_LOG2 = 9;
+        /// Lights of a leaf of the light tree; at most 32, one bit each.
+        LEAF_LIGHTS = 32;
         /// Bits of a leaf's light count in `LightNode::lights`.
         LEAF_COUNT_BITS = 6;
         /// Texture slots of a material.
@@ -226,13 +228,13 @@ shared! {
             SCENE_LIGHTS = 0: Sampled;
             /// [`LightNode`]s in depth-first order.
             SCENE_LIGHT_NODES = 1: Storage;
-            /// [`MaterialRecord`]s.
-            SCENE_MATERIALS = 2: Storage;
         }
-        /// Textures of a material.
+        /// A material: its textures and constants.
         material = 2 {
             /// The material's textures; unused slots hold a white texel.
             MATERIAL_SLOTS = 0: Combined[8];
+            /// Its [`MaterialRecord`].
+            MATERIAL_RECORD = 1: Uniform;
         }
         /// Rows in, rows out: how tests call the library functions of the shaders.
         probe = 0 {
@@ -296,6 +298,8 @@ shared! {
             material: uint;
             /// Present: factor on the accumulated colour.
             scale: float;
+            /// Direct: first light to evaluate, and the one behind the last.
+            lights: uvec2;
         }
         /// A tile's occupied slices.
         Tile {
@@ -349,10 +353,11 @@ shared! {
             /// Leaf: first light << LEAF_COUNT_BITS | count; inner node: 0.
             lights: uint;
         }
-        /// A material's constants; rows by `Parameter`.
+        /// A material's constants; rows by `Parameter`, and one to fill the 256 bytes to which uniform buffers may have
+        /// to be aligned.
         MaterialRecord {
             /// Constant of each row.
-            rows: vec4[15];
+            rows: vec4[16];
         }
         /// A row of the BSDF probe.
         BsdfProbeRow {

@@ -46,7 +46,12 @@ impl Targets {
         let cluster_ids = image(
             "cluster ids",
             Format::R32_UINT,
-            &[Use::TransferWrite, Use::ComputeWrite, Use::FragmentRead],
+            &[
+                Use::TransferWrite,
+                Use::TransferRead,
+                Use::ComputeWrite,
+                Use::FragmentRead,
+            ],
         )?;
         // No clusters until the cluster pass has run, which it never does for a scene without lights in lists.
         let nothing = vec![NO_CLUSTER; size[0] as usize * size[1] as usize];

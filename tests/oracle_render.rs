@@ -1,107 +1,14 @@
-//! Camera rays, hits, point lights and whole small pictures of the oracle.
+//! Point lights, luminaires and whole small pictures of the oracle.
+#![allow(clippy::unwrap_used, reason = "a test that panics fails")]
+
+mod common;
 
 use amas::reference::lights::{Bounds, falloff, reaching, reaching_point};
-use amas::reference::rays::{Geometry, camera_ray};
+use amas::reference::rays::camera_ray;
 use amas::reference::{Integrator, Options, render};
-use amas::scene::material::{PARAMETER_COUNT, Value};
-use amas::scene::{
-    AreaLight, AreaShape, Camera, Material, Mesh, Model, Parameter, PointLight, Projection, Scene,
-    Texels, Texture, Vertex,
-};
+use amas::scene::{AreaLight, AreaShape, PointLight, Scene};
+use common::square::{center, options, scene};
 use glam::{DVec3, Vec3, vec3};
-
-fn camera(projection: Projection) -> Camera {
-    Camera {
-        name: "main".into(),
-        position: DVec3::new(0.0, 0.0, 2.0),
-        target: DVec3::ZERO,
-        up: DVec3::Y,
-        projection,
-        near: 0.05,
-        far: None,
-        path: vec![],
-    }
-}
-
-fn perspective() -> Camera {
-    camera(Projection::Perspective { vertical_fov: 60.0 })
-}
-
-/// A white Lambert square of side 4 at z = 0, facing +z.
-fn scene() -> Scene {
-    let mut parameters = [Value::default(); PARAMETER_COUNT];
-    parameters[Parameter::Color as usize].constant = [0.5, 0.25, 1.0];
-    let material = Material {
-        name: "white".into(),
-        model: Model::Matte,
-        parameters,
-        squared_roughness: false,
-        two_sided: true,
-    };
-    let vertex = |[x, y]: [f32; 2]| Vertex {
-        position: [2.0 * x, 2.0 * y, 0.0],
-        normal: [0.0, 0.0, 1.0],
-        tangent: [1.0, 0.0, 0.0, 1.0],
-        uv: [0.5 * x + 0.5, 0.5 * y + 0.5],
-    };
-    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let mesh = Mesh {
-        vertices: corners.map(vertex).into(),
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        material: 0,
-    };
-    let light = PointLight {
-        position: vec3(0.3, 0.2, 1.0),
-        intensity: vec3(1.0, 2.0, 3.0),
-        range: None,
-    };
-    Scene {
-        cameras: vec![perspective()],
-        materials: vec![material],
-        meshes: vec![mesh],
-        point_lights: vec![light],
-        ..Scene::default()
-    }
-}
-
-fn options(size: [u32; 2]) -> Options {
-    Options {
-        size,
-        ..Options::of_scene(&scene())
-    }
-}
-
-fn center(scene: &Scene) -> [f32; 3] {
-    render(scene, &scene.cameras[0], &options([1, 1]))
-        .unwrap()
-        .image
-        .pixels[0]
-}
-
-#[test]
-fn perspective_rays_follow_the_contract() {
-    let (camera, [w, h]) = (perspective(), [320.0_f64, 240.0_f64]);
-    let tangent = 30.0_f64.to_radians().tan();
-    for (x, y) in [(0.0, 0.0), (17.0, 200.0), (319.0, 239.0)] {
-        let got = camera_ray(&camera, [320, 240], x + 0.5, y + 0.5);
-        let right = tangent * (w / h) * (2.0 * (x + 0.5) / w - 1.0);
-        let up = tangent * (1.0 - 2.0 * (y + 0.5) / h);
-        let want = DVec3::new(right, up, -1.0);
-        assert!(got.ray.direction.abs_diff_eq(want.normalize(), 1e-15));
-        assert!(
-            (got.t_min - 0.05 * want.length()).abs() < 1e-15,
-            "near is along the view"
-        );
-    }
-}
-
-#[test]
-fn orthographic_rays_follow_the_contract() {
-    let camera = camera(Projection::Orthographic { height: 3.0 });
-    let got = camera_ray(&camera, [4, 2], 0.5, 0.5).ray;
-    assert!(got.origin.abs_diff_eq(DVec3::new(-2.25, 0.75, 2.0), 1e-15));
-    assert_eq!(got.direction, DVec3::NEG_Z);
-}
 
 #[test]
 fn lambert_under_a_point_light() {
@@ -127,83 +34,6 @@ fn lambert_under_a_point_light() {
             );
         }
     }
-}
-
-#[test]
-fn facing() {
-    let mut scene = scene();
-    let from_front = center(&scene);
-    scene.meshes[0]
-        .triangles
-        .iter_mut()
-        .for_each(|t| t.reverse());
-    assert_eq!(
-        center(&scene),
-        [0.0; 3],
-        "turned to the viewer, the normal now points away"
-    );
-    scene.materials[0].two_sided = false;
-    scene.render.background = [7.0; 3];
-    assert_eq!(
-        center(&scene),
-        [7.0; 3],
-        "a one-sided back face is not drawn"
-    );
-    scene.meshes[0]
-        .triangles
-        .iter_mut()
-        .for_each(|t| t.reverse());
-    assert_eq!(center(&scene), from_front);
-}
-
-#[test]
-fn near_and_far_planes_cut() {
-    let mut scene = scene();
-    scene.render.background = [7.0; 3];
-    scene.cameras[0].near = 2.0 + 1e-9;
-    assert_eq!(center(&scene), [7.0; 3]);
-    scene.cameras[0].near = 0.1;
-    scene.cameras[0].far = Some(2.0 - 1e-9);
-    assert_eq!(center(&scene), [7.0; 3]);
-}
-
-#[test]
-fn alpha_mask_cuts() {
-    let mut scene = scene();
-    scene.render.background = [7.0; 3];
-    // The upper row is opaque, the lower one is cut: v runs upwards, row 0 is on top.
-    let texels = Texels::Linear8(vec![[255; 4], [0; 4]]);
-    scene.textures = vec![Texture {
-        name: "mask".into(),
-        width: 1,
-        height: 2,
-        texels,
-    }];
-    scene.materials[0].parameters[Parameter::Mask as usize].texture = Some(0);
-    let image = render(&scene, &scene.cameras[0], &options([1, 8]))
-        .unwrap()
-        .image;
-    let cut: Vec<_> = image
-        .pixels
-        .iter()
-        .map(|pixel| *pixel == [7.0; 3])
-        .collect();
-    assert_eq!(cut, [false, false, false, false, true, true, true, true]);
-}
-
-#[test]
-fn no_ray_slips_through_an_edge() {
-    let scene = scene();
-    let geometry = Geometry::new(&scene);
-    let camera = &scene.cameras[0];
-    // The diagonal is the triangles' common edge, and the picture is square, so every ray of it meets that edge.
-    let all = (0..=64_u32).all(|i| {
-        let at = f64::from(i);
-        geometry
-            .closest(&camera_ray(camera, [64, 64], at, 64.0 - at))
-            .is_some()
-    });
-    assert!(all);
 }
 
 #[test]

@@ -1,4 +1,5 @@
 //! Picture files and their comparison, against numbers worked out by hand.
+#![allow(clippy::unwrap_used, reason = "a test that panics fails")]
 
 use amas::compare::{Figures, Mask, Options, compare, compare_files, flip};
 use amas::image::{save_png8, write_atomically};

@@ -1,4 +1,5 @@
 //! The oracle against Mitsuba 3's pictures of `../shared/reference`, where that folder is.
+#![allow(clippy::unwrap_used, reason = "a test that panics fails")]
 
 use std::path::PathBuf;
 

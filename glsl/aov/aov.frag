@@ -18,7 +18,7 @@ void main() {
   if (AOV == AOV_POSITION) {
     value = vec4(in_position, 1.0);
   } else if (AOV == AOV_NORMAL) {
-    value = vec4(shading_frame()[2], 1.0);
+    value = vec4(shading_frame(view_direction())[2], 1.0);
   } else if (AOV == AOV_MATERIAL) {
     value = vec4(vec3(float(draw.material)), 1.0);
   } else if (AOV == AOV_LIGHT_COUNT) {

@@ -2,7 +2,8 @@
 #ifndef BIND_SURFACE_GLSL
 #define BIND_SURFACE_GLSL
 
-layout(set = SET_scene, binding = SCENE_MATERIALS, std430) readonly buffer MaterialBlock { MaterialRecord materials[]; };
+// A uniform block of its own: lavapipe reads storage buffers lane by lane.
+layout(set = SET_material, binding = MATERIAL_RECORD, std140) uniform MaterialBlock { MaterialRecord material; };
 layout(push_constant, std430) uniform PushBlock { DrawConstants draw; };
 
 layout(constant_id = 0) const uint MODEL = MODEL_MATTE;
@@ -23,6 +24,9 @@ layout(location = 3) in vec2 in_uv;
 
 #include "lib/bsdf.glsl"
 
+// Intensities end at 1e18, so a single light cannot overflow; the sum of a million can, and infinity is no radiance.
+const vec3 MAX_RADIANCE = vec3(1e30);
+
 struct Surface {
   vec3 position;  // world
   mat3 world_from_local;  // columns: tangent, bitangent, normal
@@ -31,32 +35,37 @@ struct Surface {
 
 vec3 parameter(uint row, uint slot) {
   if (slot != NO_TEXTURE) return sample_slot(slot, in_uv).rgb;
-  return materials[draw.material].rows[row].xyz;
+  return material.rows[row].xyz;
 }
 
-// Tangent, bitangent, normal; the normal is turned to the viewer, the tangent orthogonal to it.
-mat3 shading_frame() {
-  vec3 n = normalize(in_normal);
-  if (TWO_SIDED && !gl_FrontFacing) n = -n;
-  vec3 t = in_tangent.xyz - n * dot(n, in_tangent.xyz);
-  float t2 = dot(t, t);
-  // Without texture coordinates there is no tangent: any frame serves.
-  if (!(t2 > 1e-12)) {
-    float s = n.z < 0.0 ? -1.0 : 1.0;  // Duff et al. 2017
-    float a = -1.0 / (s + n.z);
-    t = vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
-    t2 = dot(t, t);
-  }
-  t *= inversesqrt(t2);
-  vec3 b = cross(n, t);
-  if (SLOT_NORMAL == NO_TEXTURE) return mat3(t, b, n);
-  vec3 m = sample_slot(SLOT_NORMAL, in_uv).xyz * 2.0 - 1.0;
-  float handed = in_tangent.w < 0.0 ? -1.0 : 1.0;
-  vec3 mapped = m.x * t + m.y * handed * b + m.z * n;
-  n = dot(mapped, mapped) > 1e-12 ? normalize(mapped) : n;
+vec3 any_tangent(vec3 n) {
+  float s = n.z < 0.0 ? -1.0 : 1.0;  // Duff et al. 2017
+  float a = -1.0 / (s + n.z);
+  return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+}
+
+// `t` made orthogonal to n and unit, or any tangent where nothing is left of it.
+vec3 tangent_to(vec3 n, vec3 t) {
   t -= n * dot(n, t);
-  t2 = dot(t, t);
-  t = t2 > 1e-12 ? t * inversesqrt(t2) : normalize(cross(b, n));
+  float t2 = dot(t, t);
+  return t2 > 1e-12 ? t * inversesqrt(t2) : any_tangent(n);
+}
+
+// Tangent, bitangent, normal. A two-sided surface's interpolated normal is turned to the viewer by its own cosine,
+// not by the triangle's facing: at the silhouette of a smooth mesh the two differ, and a normal turned away would
+// leave a black rim. A normal map is applied on the front and turned with it.
+mat3 shading_frame(vec3 wo) {
+  vec3 n = normalize(in_normal);
+  float turn = TWO_SIDED && dot(n, wo) < 0.0 ? -1.0 : 1.0;
+  vec3 t = tangent_to(n, in_tangent.xyz);
+  if (SLOT_NORMAL != NO_TEXTURE) {
+    vec3 m = sample_slot(SLOT_NORMAL, in_uv).xyz * 2.0 - 1.0;
+    float handed = in_tangent.w < 0.0 ? -1.0 : 1.0;
+    vec3 mapped = m.x * t + m.y * handed * cross(n, t) + m.z * n;
+    if (dot(mapped, mapped) > 1e-12 && dot(in_tangent.xyz, in_tangent.xyz) > 0.0) n = normalize(mapped);
+  }
+  n *= turn;
+  t = tangent_to(n, t);
   return mat3(t, cross(n, t), n);
 }
 
@@ -93,12 +102,15 @@ BsdfParameters surface_parameters() {
   return p;
 }
 
+// Towards the viewer, world.
+vec3 view_direction() { return PERSPECTIVE ? normalize(frame.eye - in_position) : -frame.forward; }
+
 Surface surface_here() {
   Surface s;
   s.position = in_position;
-  s.world_from_local = shading_frame();
-  vec3 to_eye = PERSPECTIVE ? normalize(frame.eye - in_position) : -frame.forward;
-  s.bsdf = bsdf_setup(surface_parameters(), to_eye * s.world_from_local);
+  vec3 wo = view_direction();
+  s.world_from_local = shading_frame(wo);
+  s.bsdf = bsdf_setup(surface_parameters(), wo * s.world_from_local);
   return s;
 }
 

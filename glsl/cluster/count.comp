@@ -2,6 +2,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared.glsl"
 #include "bind/frame.glsl"
 #include "bind/lights.glsl"
@@ -10,7 +11,7 @@ layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) buffer ClusterBlock { 
 layout(set = SET_frame, binding = FRAME_COUNTERS, std430) readonly buffer CounterBlock { Counters counters; };
 
 uint reaching = 0u;
-#define ON_LIGHT(index) ++reaching;
+#define ON_HITS(first, hits) reaching += uint(bitCount(hits));
 #include "cluster/reach.glsl"
 
 void main() {

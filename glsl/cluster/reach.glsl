@@ -1,11 +1,25 @@
 // Which lights reach a cluster: a walk over the light tree without a stack. Each invocation walks alone, so no
 // subgroup size is assumed and the lights come in Hilbert order on every device. The including shader defines
-// ON_LIGHT(index), called for each light whose sphere meets the cluster's box.
+// ON_HITS(first, hits), called for each leaf: bit i of `hits` says that light first + i meets the cluster's box.
+//
+// lavapipe ends an invocation's loops after 65,535 iterations in all. A walk over a million lights therefore has one
+// iteration a node, 37,450 at most, and none a light: a leaf's tests are unrolled.
 layout(local_size_x = LINEAR_GROUP) in;
 layout(set = SET_scene, binding = SCENE_LIGHT_NODES, std430) readonly buffer NodeBlock { LightNode nodes[]; };
 
 // Keeps a light whose window is 0 to the last bit rather than lose one to rounding.
 const float REACH = 1.00001;
+
+uint leaf_hits(uint first, uint count, vec3 lower, vec3 upper) {
+  uint hits = 0u;
+  [[unroll]] for (uint i = 0u; i < LEAF_LIGHTS; ++i) {
+    vec4 place = light_place(first + i);
+    vec3 to_box = max(max(lower - place.xyz, place.xyz - upper), vec3(0.0));
+    hits |= uint(dot(to_box, to_box) * place.w <= REACH) << i;
+  }
+  // Past the leaf's end there are other lights, or zeros.
+  return count == LEAF_LIGHTS ? hits : hits & ((1u << count) - 1u);
+}
 
 void visit_lights(vec3 lower, vec3 upper) {
   uint node = 0u;
@@ -15,12 +29,9 @@ void visit_lights(vec3 lower, vec3 upper) {
       continue;
     }
     uint lights = nodes[node].lights;
-    uint first = lights >> LEAF_COUNT_BITS;
-    uint end = first + (lights & ((1u << LEAF_COUNT_BITS) - 1u));
-    for (uint light = first; light < end; ++light) {
-      vec4 place = light_place(light);
-      vec3 to_box = max(max(lower - place.xyz, place.xyz - upper), vec3(0.0));
-      if (dot(to_box, to_box) * place.w <= REACH) { ON_LIGHT(light) }
+    if (lights != 0u) {
+      uint first = lights >> LEAF_COUNT_BITS;
+      ON_HITS(first, leaf_hits(first, lights & ((1u << LEAF_COUNT_BITS) - 1u), lower, upper))
     }
     ++node;
   }

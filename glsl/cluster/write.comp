@@ -2,6 +2,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared.glsl"
 #include "bind/frame.glsl"
 #include "bind/lights.glsl"
@@ -16,7 +17,6 @@ uint texel = 0u;
 uvec4 four = uvec4(0u);
 
 void append(uint light) {
-  if (written >= frame.max_list) return;
   uint slot = written & 3u;
   // Selects, not four[slot]: a dynamic index would put the vector in memory.
   four = uvec4(slot == 0u ? light : four.x, slot == 1u ? light : four.y, slot == 2u ? light : four.z, light);
@@ -24,7 +24,12 @@ void append(uint light) {
   if (slot == 3u) imageStore(light_lists, list_texel(texel++), four);
 }
 
-#define ON_LIGHT(index) append(index);
+void append_all(uint first, uint hits) {
+  // At most max_list iterations in all, well below lavapipe's limit.
+  for (; hits != 0u && written < frame.max_list; hits &= hits - 1u) append(first + uint(findLSB(hits)));
+}
+
+#define ON_HITS(first, hits) append_all(first, hits);
 #include "cluster/reach.glsl"
 
 void main() {

@@ -25,5 +25,5 @@ void main() {
     sum += reflected(surface, four.z);
     sum += reflected(surface, four.w);
   }
-  radiance = vec4(sum, 1.0);
+  radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

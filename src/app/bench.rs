@@ -2,9 +2,10 @@
 
 use super::args::{BenchOptions, SceneOptions};
 use super::measure::Figure;
-use super::outputs::check_folder;
+use super::outputs::{check_distinct, check_folder};
 use super::report::{self, Clusters, Pairs, Pass};
-use super::{camera, load_scene};
+use super::terminal::print;
+use super::{camera, in_scene, load_scene};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo, Options};
@@ -45,6 +46,10 @@ pub(super) fn run(options: &BenchOptions) -> Result<()> {
         .json
         .iter()
         .try_for_each(|path| check_folder(path))?;
+    options
+        .scenes
+        .iter()
+        .try_for_each(|scene| check_distinct(&options.json, Some(scene)))?;
     let device = Device::open(&Options {
         device: options.device.device.clone(),
         validate: options.device.validate,
@@ -74,13 +79,14 @@ fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) ->
     let name = path
         .as_ref()
         .map_or_else(|| "default".into(), |path| path.display().to_string());
-    let scene = load_scene(&SceneOptions {
+    let scene_options = SceneOptions {
         scene: path,
         size: options.size,
         set: options.set.clone(),
-    })?;
+    };
+    let scene = load_scene(&scene_options)?;
     let camera = camera(&scene, None)?;
-    let gpu_scene = Arc::new(GpuScene::new(device, &scene)?);
+    let gpu_scene = Arc::new(in_scene(&scene_options, GpuScene::new(device, &scene))?);
     let settings = FrameSettings::new(&scene.render, camera);
     let mut frame = Frame::new(device, &gpu_scene, settings)?;
     let inputs = FrameInputs {
@@ -97,9 +103,9 @@ fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) ->
         &format!("{name}, {width}x{height}, {}", device.info().name),
         &passes,
         &whole,
-    );
+    )?;
     let pairs = report::pairs(frame.pairs()?, &passes, device.info(), settings.size);
-    println!("{pairs}");
+    print(&pairs)?;
     Ok(Point {
         scene: name,
         size: settings.size,

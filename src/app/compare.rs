@@ -1,6 +1,7 @@
 //! `amas compare`: error figures between two pictures.
 
 use super::args::CompareOptions;
+use super::terminal::print;
 use crate::compare::{Figures, compare_files};
 use crate::error::Result;
 
@@ -12,14 +13,13 @@ pub(super) fn run(options: &CompareOptions) -> Result<()> {
         options.block,
     )?;
     if options.json {
-        println!("{:#}", serde_json::json!(figures));
+        print(format_args!("{:#}", serde_json::json!(figures)))
     } else {
-        print(&figures);
+        print(table(&figures))
     }
-    Ok(())
 }
 
-fn print(f: &Figures) {
+fn table(f: &Figures) -> String {
     let rows = [
         ("relMSE", f.rel_mse),
         ("RMSE", f.rmse),
@@ -34,11 +34,13 @@ fn print(f: &Figures) {
         ("largest value of B", f.largest_b),
         ("FLIP", f.flip),
     ];
-    println!(
-        "{} × {}, {} compared, {} not finite",
-        f.width, f.height, f.compared, f.non_finite
-    );
-    for (name, value) in rows {
-        println!("{name:<24}{value:.6e}");
-    }
+    let rows = rows.map(|(name, value)| format!("\n{name:<24}{value:.6e}"));
+    format!(
+        "{} × {}, {} compared, {} not finite{}",
+        f.width,
+        f.height,
+        f.compared,
+        f.non_finite,
+        rows.concat()
+    )
 }

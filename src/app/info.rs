@@ -1,6 +1,7 @@
 //! `amas info`: devices, and what each lacks.
 
 use super::args::InfoOptions;
+use super::terminal::print;
 use crate::error::{Error, Result};
 use crate::gpu::{Check, Device, DeviceInfo};
 use serde::Serialize;
@@ -25,12 +26,12 @@ pub(super) fn run(options: &InfoOptions) -> Result<()> {
             })
             .collect();
         let json = serde_json::json!({ "schema": 1, "devices": entries });
-        println!("{json:#}");
+        print(format_args!("{json:#}"))?;
     } else {
         devices
             .iter()
             .enumerate()
-            .for_each(|(index, info)| print(index, info));
+            .try_for_each(|(index, info)| print(Listed(index, info)))?;
     }
     match devices.iter().any(|info| info.report.missing().is_none()) {
         true => Ok(()),
@@ -41,16 +42,25 @@ pub(super) fn run(options: &InfoOptions) -> Result<()> {
     }
 }
 
-fn print(index: usize, info: &DeviceInfo) {
-    println!(
-        "{index}: {} ({}), {}, Vulkan {}",
-        info.name, info.kind, info.driver, info.api
-    );
-    for check in &info.report.0 {
-        let mark = if check.ok { "yes" } else { "NO " };
-        println!(
-            "   {mark}  {:<44} has {:<12} for {}",
-            check.name, check.found, check.why
-        );
+/// A device with its index, and what it has of what amas needs.
+struct Listed<'a>(usize, &'a DeviceInfo);
+
+impl std::fmt::Display for Listed<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self(index, info) = self;
+        write!(
+            f,
+            "{index}: {} ({}), {}, Vulkan {}",
+            info.name, info.kind, info.driver, info.api
+        )?;
+        for check in &info.report.0 {
+            let mark = if check.ok { "yes" } else { "NO " };
+            write!(
+                f,
+                "\n   {mark}  {:<44} has {:<12} for {}",
+                check.name, check.found, check.why
+            )?;
+        }
+        Ok(())
     }
 }

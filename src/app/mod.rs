@@ -10,6 +10,7 @@ mod outputs;
 mod reference;
 mod render;
 mod report;
+mod terminal;
 #[cfg(feature = "viewer")]
 mod view;
 
@@ -40,7 +41,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("amas: {error}");
+            terminal::complain(&error);
             ExitCode::from(error.exit_code())
         }
     }
@@ -57,9 +58,17 @@ fn load_scene(options: &SceneOptions) -> Result<Scene> {
         None => default_scene::load(&overrides)?,
     };
     for warning in &scene.warnings {
-        eprintln!("amas: warning: {warning}");
+        terminal::complain(format_args!("warning: {warning}"));
     }
     Ok(scene)
+}
+
+/// Names the scene's file in what an error says of the scene's content.
+fn in_scene<T>(options: &SceneOptions, result: Result<T>) -> Result<T> {
+    result.map_err(|error| match (error, &options.scene) {
+        (Error::Usage { cause, remedy }, Some(path)) => Error::input(path, None, cause, remedy),
+        (error, _) => error,
+    })
 }
 
 /// The camera of that name, or the first.

@@ -61,6 +61,10 @@ pub(super) fn check_folder(path: &Path) -> Result<()> {
             "name a file in it",
         ));
     }
+    // A pipe or a device is written directly, so nothing is put beside it.
+    if path.metadata().is_ok_and(|old| !old.is_file()) {
+        return Ok(());
+    }
     let probe = folder.join(format!(".amas-{}-probe", std::process::id()));
     std::fs::write(&probe, []).map_err(|error| {
         Error::usage(
@@ -73,6 +77,33 @@ pub(super) fn check_folder(path: &Path) -> Result<()> {
     })?;
     // The probe is empty and ours; a failure to remove it is reported by the real write.
     let _ = std::fs::remove_file(&probe);
+    Ok(())
+}
+
+/// No file is written twice, and none over the scene.
+pub(super) fn check_distinct<'a>(
+    paths: impl IntoIterator<Item = &'a PathBuf>,
+    scene: Option<&Path>,
+) -> Result<()> {
+    let same = |a: &Path, b: &Path| {
+        a == b
+            || a.canonicalize()
+                .is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
+    };
+    let paths: Vec<_> = paths.into_iter().collect();
+    for (i, path) in paths.iter().enumerate() {
+        let cause = if scene.is_some_and(|scene| same(path, scene)) {
+            "this is the scene, and would be overwritten"
+        } else if paths[..i].iter().any(|other| same(path, other)) {
+            "named for two outputs"
+        } else {
+            continue;
+        };
+        return Err(Error::usage(
+            format!("{}: {cause}", path.display()),
+            "give every output a file of its own",
+        ));
+    }
     Ok(())
 }
 

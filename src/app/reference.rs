@@ -1,8 +1,8 @@
 //! `amas reference`: the double-precision oracle.
 
 use super::args::{IntegratorName, ReferenceOptions};
-use super::outputs::check_linear;
-use super::{camera, load_scene};
+use super::outputs::{check_distinct, check_linear};
+use super::{camera, in_scene, load_scene};
 use crate::error::Result;
 use crate::reference::{Integrator, Options, render};
 
@@ -12,8 +12,12 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
         .error
         .iter()
         .try_for_each(|path| check_linear(path))?;
+    check_distinct(
+        [&options.output].into_iter().chain(&options.error),
+        options.scene.scene.as_deref(),
+    )?;
     let scene = load_scene(&options.scene)?;
-    let camera = camera(&scene, options.camera.as_deref())?;
+    let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
     let defaults = Options::of_scene(&scene);
     let rendered = render(
         &scene,

@@ -1,9 +1,11 @@
 //! `amas render`: a scene file to pictures.
 
 use super::args::RenderOptions;
-use super::outputs::{Kind, check_folder, check_frames, check_linear, check_picture, frame_path};
+use super::outputs::{
+    Kind, check_distinct, check_folder, check_frames, check_linear, check_picture, frame_path,
+};
 use super::report::{self, Report};
-use super::{camera, load_scene};
+use super::{camera, in_scene, load_scene};
 use crate::error::{Error, Result};
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, Options};
@@ -53,12 +55,12 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         .collect::<Result<Vec<_>>>()?;
     check_outputs(options, &outputs, &aovs)?;
     let scene = load_scene(&options.scene)?;
-    let camera = camera(&scene, options.camera.as_deref())?;
+    let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
     let device = Device::open(&Options {
         device: options.device.device.clone(),
         validate: options.device.validate,
     })?;
-    let gpu_scene = Arc::new(GpuScene::new(&device, &scene)?);
+    let gpu_scene = Arc::new(in_scene(&options.scene, GpuScene::new(&device, &scene))?);
     let settings = FrameSettings::new(&scene.render, camera);
     let mut frame = Frame::new(&device, &gpu_scene, settings)?;
 
@@ -96,7 +98,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         &format!("{} ({}), {width}x{height}", info.name, info.driver),
         &report::passes(&timings),
         &timings,
-    );
+    )?;
     if let Some(path) = &options.report {
         report::save(path, &Report::new(&device, &scene, &frame, &timings)?)?;
     }
@@ -117,6 +119,10 @@ fn check_outputs(options: &RenderOptions, outputs: &[PathBuf], aovs: &[AovOutput
         .chain(aovs.iter().map(|aov| &aov.file))
         .cloned()
         .collect();
+    check_distinct(
+        files.iter().chain(&options.report),
+        options.scene.scene.as_deref(),
+    )?;
     check_frames(
         &files,
         options

@@ -1,6 +1,7 @@
 //! The report and the pass table.
 
 use super::measure::{Figure, peak_host_memory};
+use super::terminal::{complain, print};
 use crate::error::Result;
 use crate::frame::{Frame, Timings};
 use crate::gpu::{Device, DeviceInfo};
@@ -232,36 +233,43 @@ pub(super) fn save(path: &Path, value: &impl Serialize) -> Result<()> {
     })
 }
 
-/// The table that `render` and `bench` print.
-pub(super) fn print_table(title: &str, passes: &[Pass], frames: &[Timings]) {
+/// Prints the table of `render` and `bench`.
+pub(super) fn print_table(title: &str, passes: &[Pass], frames: &[Timings]) -> Result<()> {
     let ms = |figure: Option<Figure>| match figure {
         Some(figure) if figure.n > 1 => format!("{:9.2} ± {:.2}", figure.median, figure.mad),
         Some(figure) => format!("{:9.2}", figure.median),
         None => format!("{:>9}", "-"),
     };
-    println!("{title}");
-    println!("{:<10} {:>9}       {:>9}", "pass", "device ms", "CPU ms");
+    print(title)?;
+    print(format_args!(
+        "{:<10} {:>9}       {:>9}",
+        "pass", "device ms", "CPU ms"
+    ))?;
     for pass in passes {
         let cpu = pass
             .cpu_ms
             .map_or_else(|| format!("{:>9}", "-"), |ms| format!("{ms:9.2}"));
-        println!("{:<10} {:<16}{cpu}", pass.name, ms(pass.gpu_ms));
+        print(format_args!(
+            "{:<10} {:<16}{cpu}",
+            pass.name,
+            ms(pass.gpu_ms)
+        ))?;
     }
-    println!(
+    print(format_args!(
         "{:<10} {:<16}{}",
         "frame",
         format!("{} wall", ms(figure(frames, |t| Some(t.wall_ms)))),
         ms(figure(frames, |t| Some(t.cpu_ms)))
-    );
+    ))
 }
 
 /// Says what a full list cost the picture.
 pub(super) fn warn_of_overflow(counters: &Counters, cap: u32) {
     if counters.dropped > 0 {
-        eprintln!(
-            "amas: warning: {} of {} clusters are reached by more than {cap} lights (at most {}); {} list entries were \
+        complain(format_args!(
+            "warning: {} of {} clusters are reached by more than {cap} lights (at most {}); {} list entries were \
              left out of the picture\n  remedy: raise render.max_lights_per_cluster (up to 2048), or shorten the lights' ranges",
             counters.overflowed, counters.clusters, counters.longest, counters.dropped
-        );
+        ));
     }
 }

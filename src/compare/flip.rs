@@ -10,6 +10,7 @@
 
 use rayon::prelude::*;
 
+use super::convolve::{Kernel, Size, convolve};
 use crate::HdrImage;
 
 /// Pixels a degree of the visual field.
@@ -240,70 +241,5 @@ fn features(luminance: &[f64], size: Size) -> [Vec<f64>; 2] {
         let across = convolve(luminance, &detector, &smooth, size);
         let down = convolve(luminance, &smooth, &detector, size);
         across.iter().zip(down).map(|(x, y)| x.hypot(y)).collect()
-    })
-}
-
-/// Weights at −radius … radius.
-struct Kernel(Vec<f64>);
-
-impl Kernel {
-    fn new(radius: i32, weight: impl Fn(f64) -> f64) -> Self {
-        Self((-radius..=radius).map(|x| weight(f64::from(x))).collect())
-    }
-
-    fn sum(&self) -> f64 {
-        self.0.iter().sum()
-    }
-
-    fn scaled(&self, factor: f64) -> Self {
-        Self(self.0.iter().map(|weight| weight * factor).collect())
-    }
-
-    /// Positive weights sum to 1, negative ones to −1.
-    fn balanced(&self) -> Self {
-        let total = |sign: f64| self.0.iter().map(|w| (sign * w).max(0.0)).sum::<f64>();
-        let (up, down) = (total(1.0), total(-1.0));
-        Self(
-            self.0
-                .iter()
-                .map(|w| if *w > 0.0 { w / up } else { w / down })
-                .collect(),
-        )
-    }
-}
-
-#[derive(Clone, Copy)]
-struct Size {
-    width: usize,
-    height: usize,
-}
-
-/// Separable convolution; beyond the border lies the border's pixel.
-fn convolve(source: &[f64], across: &Kernel, down: &Kernel, size: Size) -> Vec<f64> {
-    let Size { width, height } = size;
-    let clamped = |i: usize, k: usize, radius: usize, count: usize| {
-        (i + k).saturating_sub(radius).min(count - 1)
-    };
-    let pass = |kernel: &Kernel, pick: &(dyn Fn(usize, usize) -> f64 + Sync)| {
-        let sum = |i: usize| {
-            kernel
-                .0
-                .iter()
-                .enumerate()
-                .map(|(k, weight)| weight * pick(i, k))
-                .sum::<f64>()
-        };
-        (0..width * height)
-            .into_par_iter()
-            .map(sum)
-            .collect::<Vec<_>>()
-    };
-    let radius = across.0.len() / 2;
-    let rows = pass(across, &|i, k| {
-        source[i / width * width + clamped(i % width, k, radius, width)]
-    });
-    let radius = down.0.len() / 2;
-    pass(down, &|i, k| {
-        rows[clamped(i / width, k, radius, height) * width + i % width]
     })
 }

@@ -17,6 +17,7 @@
 //! A pixel of which a channel of A or B is NaN or infinite is counted in `non_finite` and in no other figure. If B is
 //! black (m = 0), relative figures are 0 where A is black too and infinite (`null` in JSON) where it is not.
 
+mod convolve;
 mod figures;
 pub mod flip;
 
@@ -154,7 +155,14 @@ pub fn compare_files(a: &Path, b: &Path, mask: Option<&Path>, block: u32) -> Res
         block,
         display_referred,
     };
-    compare(&HdrImage::load(a)?, &HdrImage::load(b)?, &options)
+    let (a_image, b_image) = (HdrImage::load(a)?, HdrImage::load(b)?);
+    compare(&a_image, &b_image, &options).map_err(|error| match error {
+        Error::Usage { cause, remedy } => Error::usage(
+            format!("{} against {}: {cause}", a.display(), b.display()),
+            remedy,
+        ),
+        error => error,
+    })
 }
 
 fn same_size(what: &str, [width, height]: [u32; 2], reference: [u32; 2]) -> Result<()> {

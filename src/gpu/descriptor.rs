@@ -230,6 +230,20 @@ impl DescriptorSet<'_> {
         );
     }
 
+    /// One element of a buffer.
+    pub fn element<T: Pod>(&self, binding: u32, buffer: &Buffer<T>, index: usize) {
+        let range = size_of::<T>() as vk::DeviceSize;
+        let info = [vk::DescriptorBufferInfo {
+            buffer: buffer.raw,
+            offset: index as vk::DeviceSize * range,
+            range,
+        }];
+        self.write(
+            vk::WriteDescriptorSet::default().buffer_info(&info),
+            binding,
+        );
+    }
+
     /// An image in the layout of a use.
     pub fn image(&self, binding: u32, image: &Image, used: Use) {
         let info = [vk::DescriptorImageInfo {

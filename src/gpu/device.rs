@@ -147,6 +147,12 @@ impl Device {
         &self.info
     }
 
+    /// Whether the device is a software rasteriser.
+    #[must_use]
+    pub fn is_cpu(&self) -> bool {
+        self.info.kind == "cpu"
+    }
+
     /// Largest number of device bytes in use at once so far.
     #[must_use]
     pub fn peak_memory(&self) -> u64 {

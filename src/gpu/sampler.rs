@@ -28,7 +28,8 @@ impl Sampler {
             .address_mode_u(vk::SamplerAddressMode::REPEAT)
             .address_mode_v(vk::SamplerAddressMode::REPEAT)
             .max_lod(vk::LOD_CLAMP_NONE);
-        if let Some(most) = device.max_anisotropy {
+        // Not on a CPU: lavapipe 22.3.6 blurs magnified texels too (mean error of a textured wall 1.3e-2, without 1.3e-4).
+        if let Some(most) = device.max_anisotropy.filter(|_| !device.is_cpu()) {
             info = info
                 .anisotropy_enable(true)
                 .max_anisotropy(ANISOTROPY.min(most));

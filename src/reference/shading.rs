@@ -87,7 +87,7 @@ impl Surface {
             material,
             uv: vertex_uv(mesh, hit),
         };
-        let (frame, has_tangent) = shading_frame(mesh, hit, &parameters);
+        let (frame, has_tangent) = shading_frame(mesh, hit, &parameters, -ray.direction);
         Self {
             position: ray.origin + hit.t * ray.direction,
             frame,
@@ -98,23 +98,31 @@ impl Surface {
 }
 
 /// The frame at a hit, and whether its tangent means anything.
-fn shading_frame(mesh: &Mesh, hit: &Hit, parameters: &Parameters) -> (Frame, bool) {
+///
+/// A two-sided surface's interpolated normal is turned to the viewer by its own cosine, not by the triangle's facing:
+/// at the silhouette of a smooth mesh the two differ, and a normal turned away would leave a black rim. A normal map
+/// is applied on the front and turned with it.
+fn shading_frame(mesh: &Mesh, hit: &Hit, parameters: &Parameters, wo: DVec3) -> (Frame, bool) {
     let normal = interpolate(mesh, hit, |v| v.normal.map(f64::from)).normalize_or(DVec3::Y);
+    let turn = if parameters.material.two_sided && normal.dot(wo) < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
     let tangent = interpolate(mesh, hit, |v| {
         let [x, y, z, _] = v.tangent.map(f64::from);
         [x, y, z]
     });
     let Some(frame) = Frame::with_tangent(normal, tangent) else {
-        let normal = if hit.front { normal } else { -normal };
-        return (Frame::about(normal), false);
+        return (Frame::about(turn * normal), false);
     };
     let handedness = interpolate(mesh, hit, |v| [f64::from(v.tangent[3]); 3])
         .x
         .signum();
-    let normal = parameters
-        .mapped_normal(&frame, handedness)
-        .unwrap_or(normal);
-    let normal = if hit.front { normal } else { -normal };
+    let normal = turn
+        * parameters
+            .mapped_normal(&frame, handedness)
+            .unwrap_or(normal);
     match Frame::with_tangent(normal, frame.tangent) {
         Some(frame) => (frame, true),
         None => (Frame::about(normal), false),

@@ -11,7 +11,7 @@
 //! negative colours, with a warning.
 
 use std::collections::HashMap;
-use std::io::Cursor;
+use std::io::{self, Cursor};
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 
@@ -135,6 +135,10 @@ impl<'a> Textures<'a> {
 }
 
 fn decode(path: &str, bytes: &[u8]) -> Result<DynamicImage, ImageError> {
+    if bytes.starts_with(&[0xff, 0xd8]) && !jpeg_is_whole(bytes) {
+        // The decoder would fill the rest with grey.
+        return Err(io::Error::from(io::ErrorKind::UnexpectedEof).into());
+    }
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     // TGA files carry no signature, so only the name tells.
     if reader.format().is_none()
@@ -152,6 +156,24 @@ fn decode(path: &str, bytes: &[u8]) -> Result<DynamicImage, ImageError> {
     limits.check_dimensions(decoder.dimensions().0, decoder.dimensions().1)?;
     decoder.set_limits(limits)?;
     DynamicImage::from_decoder(decoder)
+}
+
+/// Follows the segments of a JPEG file to its end marker (ITU T.81, B.1.1).
+fn jpeg_is_whole(bytes: &[u8]) -> bool {
+    let mut at = 2;
+    while let Some(&[first, kind]) = bytes.get(at..at + 2) {
+        at += match (first, kind) {
+            (0xff, 0xd9) => return true,
+            // A segment, whose length counts itself. What is between segments goes byte by byte: entropy-coded data, in
+            // which 0 follows every 0xff, and restart markers.
+            (0xff, 0xc0..=0xcf | 0xda..=0xfe) => match bytes.get(at + 2..at + 4) {
+                Some(&[high, low]) => 2 + usize::from(u16::from_be_bytes([high, low])),
+                _ => return false,
+            },
+            _ => 1,
+        };
+    }
+    false
 }
 
 fn byte_texels(picture: DynamicImage, usage: Use) -> Texels {

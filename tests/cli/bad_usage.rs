@@ -1,0 +1,98 @@
+//! Command lines that are wrong: status 2.
+
+use crate::Folder;
+
+#[test]
+fn words_that_do_not_exist() {
+    let folder = Folder::new();
+    folder.refused(&["rendr"], &["rendr", "--help"]);
+    folder.refused(&["render", "--sise", "1x1"], &["--sise", "'--size'"]);
+    folder.refused(
+        &["render", "scene.toml", "other.toml"],
+        &["unexpected argument 'other.toml'"],
+    );
+    folder.refused(&["compare", "a.exr"], &["<B>"]);
+    folder.refused(&["reference", "scene.toml"], &["--output"]);
+    folder.refused(&["bench", "--frames", "0"], &["--frames"]);
+    folder.refused(&["bench", "--warmup", "-1"], &["-1"]);
+    folder.refused(&["reference", "-o", "a.exr", "--spp", "0"], &["--spp"]);
+    folder.refused(
+        &["reference", "-o", "a.exr", "--integrator", "bdpt"],
+        &["bdpt", "shadowed"],
+    );
+    folder.refused(&["compare", "a.exr", "b.exr", "--block", "0"], &["--block"]);
+}
+
+#[test]
+fn sizes() {
+    let folder = Folder::new();
+    for size in ["5", "64x", "x48", "64*48", "64.5x48", "big", ""] {
+        folder.refused(&["render", "scene.toml", "--size", size], &["--size"]);
+    }
+    let size = |size| folder.refused(&["render", "scene.toml", "--size", size], &["--set size="]);
+    size("0x0");
+    size("0x48");
+    size("100000x100000");
+    size("16384x16384");
+}
+
+#[test]
+fn frames() {
+    let folder = Folder::new();
+    for frames in ["5..2", "5..5", "5", "a..b", "..", "0..-1", "0..=5"] {
+        folder.refused(&["render", "scene.toml", "--frames", frames], &["A..B"]);
+    }
+    let several = ["render", "scene.toml", "--frames", "0..3", "-o"];
+    for name in ["a.png", "a_%04x.png", "100%.exr"] {
+        folder.refused(&[&several[..], &[name]].concat(), &[name, "%04d"]);
+    }
+    let aov = ["a_%04d.png", "--aov", "normal=n.exr"];
+    folder.refused(&[&several[..], &aov].concat(), &["n.exr", "%04d"]);
+}
+
+#[test]
+fn names_of_things() {
+    let folder = Folder::new();
+    let render = |words: &[&str], parts: &[&str]| {
+        folder.refused(&[&["render", "scene.toml"], words].concat(), parts);
+    };
+    render(
+        &["--camera", "side"],
+        &["scene.toml", "\"side\"", "choose one of: main"],
+    );
+    render(
+        &["--aov", "albedo=a.exr"],
+        &["\"albedo\"", "light_count, direct or indirect"],
+    );
+    render(&["--aov", "normal"], &["NAME=VALUE"]);
+    render(&["--aov", "normal="], &["NAME=VALUE"]);
+    folder.refused(
+        &["reference", "scene.toml", "-o", "a.exr", "--camera", "side"],
+        &["scene.toml", "\"side\"", "main"],
+    );
+}
+
+#[test]
+fn overrides() {
+    let folder = Folder::new();
+    let set = |pair: &str, parts: &[&str]| {
+        folder.refused(&["render", "scene.toml", "--set", pair], parts);
+        folder.refused(&["bench", "scene.toml", "--set", pair], parts);
+    };
+    set("samples", &["NAME=VALUE"]);
+    set("=4", &["NAME=VALUE"]);
+    set(
+        "sampels=4",
+        &["--set sampels=4", "unknown key", "did you mean `samples`?"],
+    );
+    set("camera.near=1", &["--set camera.near=1", "unknown key"]);
+    set("samples=many", &["--set samples=many", "whole number"]);
+    set("samples=0", &["from 1 to 65536"]);
+    set("samples=[1", &["--set samples=[1", "not valid TOML"]);
+    set("exposure=nan", &["--set exposure=nan", "not a number"]);
+    set("exposure=1e999", &["infinite"]);
+    set("light_error=2", &["from 0 to 1"]);
+    set("tonemap=filmic", &["none, aces, agx"]);
+    set("background=[1, 1]", &["3 numbers"]);
+    set("render.max_lights_per_cluster=4", &["from 128 to 2048"]);
+}

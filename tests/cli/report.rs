@@ -1,0 +1,180 @@
+//! The report and the figures of `amas bench`: every key of the contract, with values that can be.
+
+use crate::Folder;
+use serde_json::Value;
+
+const PASSES: [&str; 5] = ["prepass", "cluster", "direct", "indirect", "present"];
+
+fn number(value: &Value) -> f64 {
+    let number = value.as_f64();
+    number.unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+/// `{median, mad, n}` of times.
+fn figure(value: &Value, n: u64) {
+    assert!(number(&value["median"]) > 0.0, "{value}");
+    assert!(number(&value["mad"]) >= 0.0, "{value}");
+    assert_eq!(value["n"], n, "{value}");
+}
+
+fn device(value: &Value) {
+    for key in ["name", "driver", "api", "type"] {
+        assert!(!value[key].as_str().unwrap().is_empty(), "{key}: {value}");
+    }
+}
+
+/// Names in frame order, and times.
+fn passes(value: &Value, n: u64) {
+    let passes = value.as_array().unwrap();
+    let names: Vec<_> = passes
+        .iter()
+        .map(|pass| pass["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, PASSES);
+    for pass in passes {
+        // Devices without timestamps report null.
+        if !pass["gpu_ms"].is_null() {
+            figure(&pass["gpu_ms"], n);
+        }
+        assert!(number(&pass["cpu_ms"]) >= 0.0, "{pass}");
+    }
+}
+
+/// At 64 × 48 with a single light that reaches a part of the floor.
+fn clusters(value: &Value) {
+    let grid = value["grid"].as_array().unwrap();
+    let grid: Vec<_> = grid.iter().map(number).collect();
+    assert_eq!(grid[..2], [8.0, 6.0]);
+    assert!((1.0..=256.0).contains(&grid[2]), "{grid:?}");
+    let occupied = number(&value["occupied"]);
+    assert!((1.0..=grid.iter().product()).contains(&occupied), "{value}");
+    let entries = number(&value["list_entries"]);
+    assert!((1.0..=occupied).contains(&entries), "{value}");
+    assert_eq!(value["longest_list"], 1, "{value}");
+    for key in ["overflowed", "folded_lights", "max_folded_error"] {
+        assert_eq!(number(&value[key]), 0.0, "{key}");
+    }
+}
+
+fn pairs(value: &Value) {
+    let evaluated = number(&value["evaluated"]);
+    let useful = number(&value["useful"]);
+    assert!(
+        0.0 < useful && useful <= evaluated && evaluated <= 64.0 * 48.0,
+        "{value}"
+    );
+    let per_pixel = number(&value["per_pixel"]) * 64.0 * 48.0;
+    assert!((per_pixel / evaluated - 1.0).abs() < 1e-12, "{value}");
+    if !value["ns_per_pair"].is_null() {
+        assert!(number(&value["ns_per_pair"]) > 0.0, "{value}");
+    }
+}
+
+#[test]
+fn every_key() {
+    let folder = Folder::new();
+    folder.done(&["render", "scene.toml", "--report", "r.json"]);
+    let report = folder.json("r.json");
+    assert_eq!(report["schema"], 1);
+    device(&report["device"]);
+    let scene =
+        serde_json::json!({ "triangles": 2, "materials": 1, "point_lights": 1, "area_lights": 0 });
+    assert_eq!(report["scene"], scene);
+    assert_eq!(
+        report["image"],
+        serde_json::json!({ "width": 64, "height": 48 })
+    );
+    passes(&report["passes"], 1);
+    clusters(&report["clusters"]);
+    figure(&report["frame"]["wall_ms"], 1);
+    figure(&report["frame"]["cpu_ms"], 1);
+    pairs(&report["pairs"]);
+    let estimate = &report["error_estimate"];
+    let error = number(&estimate["light_relative"]);
+    assert!(
+        (0.0..=0.01).contains(&error),
+        "beyond the budget: {estimate}"
+    );
+    assert_eq!(number(&estimate["indirect_relative"]), 0.0);
+    assert!(report["validation_messages"].is_null());
+    let memory = &report["peak_memory"];
+    assert!(
+        (0.1..4096.0).contains(&number(&memory["device_mb"])),
+        "{memory}"
+    );
+    if cfg!(target_os = "linux") {
+        assert!(
+            (1.0..4096.0).contains(&number(&memory["host_mb"])),
+            "{memory}"
+        );
+    }
+}
+
+#[test]
+fn several_frames_and_no_lights() {
+    let folder = Folder::new();
+    let frames = ["--frames", "0..4", "-o", "a_%04d.pfm"];
+    folder.done(&[&["render", "scene.toml", "--report", "r.json"], &frames[..]].concat());
+    let report = folder.json("r.json");
+    passes(&report["passes"], 4);
+    figure(&report["frame"]["wall_ms"], 4);
+    // A scene without lights: neither lists nor the passes that would read them.
+    let dark = crate::SCENE.split("[[light]]").next().unwrap();
+    folder.write("dark.toml", dark);
+    folder.done(&["render", "dark.toml", "--report", "r.json"]);
+    let report = folder.json("r.json");
+    let names = report["passes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|pass| &pass["name"]);
+    assert_eq!(names.collect::<Vec<_>>(), ["prepass", "direct", "present"]);
+    assert_eq!(report["pairs"]["evaluated"], 0);
+    assert_eq!(report["pairs"]["ns_per_pair"], Value::Null);
+    assert_eq!(report["clusters"]["list_entries"], 0);
+}
+
+/// The validation layers are on, and silent.
+#[test]
+fn validation() {
+    let folder = Folder::new();
+    let words = [
+        "--validate",
+        "--report",
+        "r.json",
+        "--aov",
+        "normal=n.exr",
+        "-o",
+        "a.png",
+    ];
+    folder.done(&[&["render", "scene.toml"], &words[..]].concat());
+    assert_eq!(folder.json("r.json")["validation_messages"], 0);
+}
+
+#[test]
+fn bench() {
+    let folder = Folder::new();
+    let words = ["--frames", "3", "--warmup", "1", "--json", "b.json"];
+    let table = folder.done(&[&["bench", "scene.toml", "scene.toml"], &words[..]].concat());
+    let json = folder.json("b.json");
+    assert_eq!(json["schema"], 1);
+    device(&json["device"]);
+    assert!(json.as_object().unwrap().contains_key("commit"));
+    let points = json["points"].as_array().unwrap();
+    assert_eq!(points.len(), 2);
+    for point in points {
+        assert_eq!(point["scene"], "scene.toml");
+        assert_eq!(point["size"], serde_json::json!([64, 48]));
+        figure(&point["frame_cpu_ms"], 3);
+        figure(&point["frame_wall_ms"], 3);
+        // The frames that are split by pass are timed on the device too.
+        let n = point["passes"][0]["gpu_ms"]["n"].as_u64();
+        passes(&point["passes"], n.unwrap_or(0));
+        assert!(n.is_none_or(|n| n >= 3));
+        clusters(&point["clusters"]);
+        pairs(&point["pairs"]);
+    }
+    for name in PASSES {
+        assert!(table.contains(&format!("\n{name} ")), "{table}");
+    }
+}

@@ -1,0 +1,11 @@
+//! The frame against the oracle and against laws that any picture obeys. Every test runs under the validation layers
+//! with synchronisation checks, and one message fails it.
+#![allow(clippy::unwrap_used, reason = "a test that panics fails")]
+
+mod cameras;
+mod clusters;
+mod lists;
+mod oracle;
+mod support;
+mod surfaces;
+mod textures;
