@@ -2,6 +2,9 @@
 //! with synchronisation checks, and one message fails it.
 #![allow(clippy::unwrap_used, reason = "a test that panics fails")]
 
+#[path = "../common/mod.rs"]
+mod common;
+
 mod cameras;
 mod clusters;
 mod lists;

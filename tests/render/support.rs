@@ -3,18 +3,10 @@
 use amas::passes::aov::Quantity;
 use amas::reference::{self, Options};
 use amas::scene::load_embedded;
-use amas::{Frame, FrameInputs, FrameSettings, Gpu, GpuScene, HdrImage, Scene, gpu};
+use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage, Scene};
 use std::sync::Arc;
 
-/// The device under validation; a machine without one fails.
-pub(crate) fn device() -> Arc<Gpu> {
-    let device = std::env::var("AMAS_DEVICE").ok();
-    Gpu::open(&gpu::Options {
-        device,
-        validate: true,
-    })
-    .unwrap()
-}
+use crate::common::gpu::CheckedGpu;
 
 /// A scene from its text.
 pub(crate) fn scene(text: &str) -> Scene {
@@ -26,12 +18,12 @@ pub(crate) fn scene_with(text: &str, files: &[(&str, &[u8])]) -> Scene {
     load_embedded("test.toml", text, files, &[]).unwrap()
 }
 
-/// A frame that checks for validation messages when dropped.
+/// A frame on a device that checks for validation messages when dropped.
 pub(crate) struct Rig {
-    pub(crate) device: Arc<Gpu>,
     pub(crate) gpu_scene: Arc<GpuScene>,
     pub(crate) frame: Frame,
     pub(crate) scene: Scene,
+    _device: CheckedGpu,
 }
 
 impl Rig {
@@ -41,16 +33,16 @@ impl Rig {
 
     /// A frame with changed settings.
     pub(crate) fn with(scene: Scene, change: impl FnOnce(&mut FrameSettings)) -> Self {
-        let device = device();
+        let device = CheckedGpu::open();
         let gpu_scene = Arc::new(GpuScene::new(&device, &scene).unwrap());
         let mut settings = FrameSettings::new(&scene.render, &scene.cameras[0]);
         change(&mut settings);
         let frame = Frame::new(&device, &gpu_scene, settings).unwrap();
         Self {
-            device,
             gpu_scene,
             frame,
             scene,
+            _device: device,
         }
     }
 
@@ -69,14 +61,6 @@ impl Rig {
 
     pub(crate) fn aov(&self, quantity: Quantity) -> Vec<[f32; 4]> {
         self.frame.aov(quantity).unwrap()
-    }
-}
-
-impl Drop for Rig {
-    fn drop(&mut self) {
-        if !std::thread::panicking() {
-            self.device.require_silence().unwrap();
-        }
     }
 }
 
