@@ -7,7 +7,7 @@ mod fly;
 mod stage;
 
 use super::args::ViewOptions;
-use super::{camera, load_scene};
+use super::{camera, in_scene, load_scene};
 use crate::error::{Error, Result};
 use crate::gpu::Shown;
 use crate::scene::Scene;
@@ -26,8 +26,8 @@ const PIXELS_PER_NOTCH: f64 = 40.0;
 
 pub(super) fn run(options: &ViewOptions) -> Result<()> {
     let scene = load_scene(&options.scene)?;
-    let fly = Fly::new(camera(&scene, options.camera.as_deref())?);
-    open(options, &scene, fly).map_err(advise)
+    let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
+    open(options, &scene, Fly::new(camera)).map_err(advise)
 }
 
 fn open(options: &ViewOptions, scene: &Scene, fly: Fly) -> Result<()> {
@@ -171,11 +171,7 @@ impl ApplicationHandler for Viewer<'_> {
         if self.stage.is_some() {
             return;
         }
-        let title = match &self.options.scene.scene {
-            Some(path) => format!("amas: {}", path.display()),
-            None => "amas".into(),
-        };
-        let opened = Stage::open(event_loop, &title, self.scene, &self.options.device);
+        let opened = Stage::open(event_loop, self.options, self.scene);
         let result = opened.map(|stage| self.stage = Some(stage));
         self.settle(event_loop, result);
         self.redraw();

@@ -1,7 +1,7 @@
 //! The open window: device, scene and frame, and the picture's way into the window.
 
-use crate::app::args::DeviceOptions;
-use crate::app::report;
+use crate::app::args::ViewOptions;
+use crate::app::{in_scene, report};
 use crate::error::{Error, Result};
 use crate::frame::{Frame, FrameInputs, FrameSettings};
 use crate::gpu::{Device, Options, Shown, Swapchain};
@@ -27,10 +27,13 @@ impl Stage {
     /// Opens the window and the device, and uploads the scene.
     pub(super) fn open(
         event_loop: &ActiveEventLoop,
-        title: &str,
+        options: &ViewOptions,
         scene: &Scene,
-        options: &DeviceOptions,
     ) -> Result<Self> {
+        let title = match &options.scene.scene {
+            Some(path) => format!("amas: {}", path.display()),
+            None => "amas".into(),
+        };
         let [width, height] = scene.render.size;
         let attributes = Window::default_attributes()
             .with_title(title)
@@ -42,16 +45,16 @@ impl Stage {
                 remedy: "check the display".into(),
             })?;
         let window = Arc::new(window);
-        let options = Options {
-            device: options.device.clone(),
-            validate: options.validate,
+        let asked = Options {
+            device: options.device.device.clone(),
+            validate: options.device.validate,
         };
         let (device, swapchain) =
-            Device::open_for_window(&options, &window, event_loop.owned_display_handle())?;
+            Device::open_for_window(&asked, &window, event_loop.owned_display_handle())?;
         Ok(Self {
             frame: None,
             swapchain,
-            scene: Arc::new(GpuScene::new(&device, scene)?),
+            scene: Arc::new(in_scene(&options.scene, GpuScene::new(&device, scene))?),
             device,
             window,
             warned: false,
