@@ -106,7 +106,9 @@ impl GpuScene {
         let textures = Textures::new(device, scene)?;
         let materials = textures.bind(&layout, scene)?;
         for index in 0..scene.materials.len() {
-            materials.get(index).element(shared::material::MATERIAL_RECORD, &records, index);
+            materials
+                .get(index)
+                .element(shared::material::MATERIAL_RECORD, &records, index);
         }
         Ok(Self {
             set,

@@ -175,9 +175,9 @@ mod tests {
                 assert!(node.skip as usize > i && node.skip as usize <= tree.nodes.len());
                 for below in &tree.nodes[i..node.skip as usize] {
                     let first = (below.lights >> LEAF_COUNT_BITS) as usize;
-                    for light in first..first + (below.lights & 63) as usize {
-                        seen[light] += u32::from(std::ptr::eq(below, node));
-                        let place = tree.lights[light];
+                    let held = first..first + (below.lights & 63) as usize;
+                    for (count, place) in seen[held.clone()].iter_mut().zip(&tree.lights[held]) {
+                        *count += u32::from(std::ptr::eq(below, node));
                         let range = place.range.unwrap();
                         assert!(place.position.cmpge(Vec3::from(node.lower) + range).all());
                         assert!(place.position.cmple(Vec3::from(node.upper) - range).all());

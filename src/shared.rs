@@ -199,7 +199,7 @@ shared! {
     sets {
         /// Descriptors of a frame: targets and clusters.
         frame = 0 {
-            /// [`FrameConstants`].
+            /// [`FrameConstants`](super::FrameConstants).
             FRAME_CONSTANTS = 0: Uniform;
             /// Depth of the prepass.
             FRAME_DEPTH = 1: Sampled;
@@ -211,11 +211,11 @@ shared! {
             FRAME_LISTS_OUT = 4: StorageImage;
             /// Light lists, as read: four indices a texel.
             FRAME_LISTS = 5: Sampled;
-            /// [`Tile`] per tile.
+            /// [`Tile`](super::Tile) per tile.
             FRAME_TILES = 6: Storage;
-            /// [`Cluster`] per occupied cluster.
+            /// [`Cluster`](super::Cluster) per occupied cluster.
             FRAME_CLUSTERS = 7: Storage;
-            /// [`Counters`].
+            /// [`Counters`](super::Counters).
             FRAME_COUNTERS = 8: Storage;
             /// Scene-linear colour, read by the present subpass.
             FRAME_HDR = 9: Input;
@@ -226,14 +226,14 @@ shared! {
         scene = 1 {
             /// Lights, two texels each.
             SCENE_LIGHTS = 0: Sampled;
-            /// [`LightNode`]s in depth-first order.
+            /// [`LightNode`](super::LightNode)s in depth-first order.
             SCENE_LIGHT_NODES = 1: Storage;
         }
         /// A material: its textures and constants.
         material = 2 {
             /// The material's textures; unused slots hold a white texel.
             MATERIAL_SLOTS = 0: Combined[8];
-            /// Its [`MaterialRecord`].
+            /// Its [`MaterialRecord`](super::MaterialRecord).
             MATERIAL_RECORD = 1: Uniform;
         }
         /// Rows in, rows out: how tests call the library functions of the shaders.

@@ -73,7 +73,7 @@ impl Camera {
         }
     }
 
-    /// The camera as it stands at time `t` [s]: key frames interpolated linearly, held at both ends.
+    /// The camera as it stands at time `t`, in seconds: key frames interpolated linearly, held at both ends.
     #[must_use]
     pub fn at(&self, t: f64) -> Self {
         let mut camera = self.clone();
