@@ -7,16 +7,17 @@ mod timing;
 pub use timing::{PassTime, Timings};
 
 use crate::camera_constants::camera_constants;
+use crate::draws::{VisibleDraw, visible};
 use crate::error::Result;
 use crate::gpu::{Buffer, BufferUse, Commands, DescriptorSets, Device, Timestamps, Use};
 use crate::gpu_scene::GpuScene;
 use crate::image::HdrImage;
-use crate::passes::PassInputs;
 use crate::passes::aov::{Aov, Quantity};
 use crate::passes::cluster::{Capacity, ClusterPass, ClusterTargets};
 use crate::passes::forward::{Forward, Sample, Work};
 use crate::passes::pairs::{PairCount, PairPass};
 use crate::passes::prepass::Prepass;
+use crate::passes::{PassInputs, View};
 use crate::scene::settings::Tonemap;
 use crate::scene::{Camera, Projection, RenderSettings};
 use crate::shared::{self, Counters, FrameConstants};
@@ -87,6 +88,7 @@ pub struct Frame {
     pass_names: Vec<&'static str>,
     samples: u32,
     slices: u32,
+    draws: Vec<VisibleDraw>,
 }
 
 impl Frame {
@@ -124,6 +126,7 @@ impl Frame {
             pass_names,
             samples: 0,
             slices: 0,
+            draws: Vec::new(),
             targets,
             device: device.clone(),
             scene: scene.clone(),
@@ -200,7 +203,7 @@ impl Frame {
     fn record_prepass(&self, cmd: &mut Commands) {
         cmd.reset_timestamps(&self.timestamps);
         cmd.timestamp(&self.timestamps, 0);
-        self.prepass.record(cmd, &self.scene, self.set.get(0));
+        self.prepass.record(cmd, &self.view());
         cmd.timestamp(&self.timestamps, 1);
     }
 
@@ -212,13 +215,7 @@ impl Frame {
             Use::ComputeWrite,
         );
         cmd.transition(&self.lists.lists, Use::FragmentRead, Use::ComputeWrite);
-        cluster.record(
-            cmd,
-            &self.scene,
-            self.set.get(0),
-            &self.lists,
-            tiles_of(self.settings.size),
-        );
+        cluster.record(cmd, &self.view(), &self.lists, tiles_of(self.settings.size));
         cmd.transition(
             &self.targets.cluster_ids,
             Use::ComputeWrite,
@@ -231,13 +228,8 @@ impl Frame {
 
     fn record_forward(&self, cmd: &mut Commands, sample: Sample) {
         let stamp = 2 + u32::from(self.cluster.is_some());
-        self.forward.record(
-            cmd,
-            &self.scene,
-            self.set.get(0),
-            sample,
-            (&self.timestamps, stamp),
-        );
+        self.forward
+            .record(cmd, &self.view(), sample, (&self.timestamps, stamp));
         cmd.memory_barrier(Use::ComputeWrite, Use::TransferRead);
         cmd.copy_buffer(&self.lists.counters, &self.readback);
         cmd.memory_barrier(Use::TransferWrite, Use::HostRead);
@@ -257,7 +249,16 @@ impl Frame {
         constants.list_capacity = self.lists.capacity.texels;
         constants.background = self.settings.background;
         self.slices = constants.slice_count;
+        self.draws = visible(&self.scene.draws, &constants);
         self.constants.write(&[constants])
+    }
+
+    fn view(&self) -> View<'_> {
+        View {
+            scene: &self.scene,
+            draws: &self.draws,
+            frame: self.set.get(0),
+        }
     }
 
     fn bind(&self) {
@@ -320,7 +321,7 @@ impl Frame {
         };
         let aov = Aov::new(&inputs, &self.targets, quantity)?;
         self.device.run("aov", |cmd| {
-            aov.record(cmd, &self.scene, self.set.get(0));
+            aov.record(cmd, &self.view());
             Ok(())
         })?;
         aov.fetch()

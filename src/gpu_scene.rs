@@ -2,6 +2,7 @@
 
 mod textures;
 
+use crate::draws::{Draw, is_closed};
 use crate::error::{Error, Result};
 use crate::gpu::{
     Buffer, BufferUse, Cull, DescriptorSets, Device, Format, Image, ImageDescription,
@@ -11,6 +12,7 @@ use crate::light_tree::LightTree;
 use crate::scene::material::PARAMETER_COUNT;
 use crate::scene::{Material, Model, Parameter, PointLight, Scene, Vertex};
 use crate::shared::{self, LightNode, MaterialRecord};
+use rayon::prelude::*;
 use std::sync::Arc;
 use textures::Textures;
 
@@ -20,7 +22,7 @@ pub struct Variant {
     /// Whether the prepass tests the material's mask.
     pub masked: bool,
     /// Whether back faces are drawn.
-    pub two_sided: bool,
+    pub both_sides: bool,
     /// BSDF model, lobes and texture slots.
     pub specialization: Specialization,
 }
@@ -29,25 +31,12 @@ impl Variant {
     /// Faces to drop.
     #[must_use]
     pub fn cull(&self) -> Cull {
-        if self.two_sided {
+        if self.both_sides {
             Cull::None
         } else {
             Cull::Back
         }
     }
-}
-
-/// A run of triangles of one material.
-#[derive(Clone, Copy, Debug)]
-pub struct Draw {
-    /// Index into [`GpuScene::variants`].
-    pub variant: usize,
-    /// Index of the material.
-    pub material: u32,
-    /// First triangle.
-    pub first: u32,
-    /// Triangles.
-    pub count: u32,
 }
 
 /// A scene's buffers and sets.
@@ -60,7 +49,7 @@ pub struct GpuScene {
     pub vertices: Buffer<Vertex>,
     /// All triangles.
     pub triangles: Buffer<[u32; 3]>,
-    /// Sorted by variant.
+    /// One per mesh, sorted by variant.
     pub draws: Vec<Draw>,
     /// Distinct variants, sorted.
     pub variants: Vec<Variant>,
@@ -92,8 +81,8 @@ impl GpuScene {
                 shared::material::BINDINGS,
             ],
         )?);
-        let (variants, variant_of) = variants(scene)?;
-        let (vertices, triangles, draws) = geometry(scene, &variant_of);
+        let (variants, of_mesh) = variants(scene)?;
+        let (vertices, triangles, draws) = geometry(scene, &of_mesh);
         let lights = LightTree::new(&scene.point_lights);
         let light_image = light_image(device, &lights.lights)?;
         let nodes = Buffer::with(device, "light tree", BufferUse::Storage, &lights.nodes)?;
@@ -151,17 +140,48 @@ fn reject_unsupported(scene: &Scene) -> Result<()> {
     }
 }
 
-/// Distinct variants, and each material's index among them.
-fn variants(scene: &Scene) -> Result<(Vec<Variant>, Vec<usize>)> {
+/// Distinct variants, and for each mesh its own, and the one from outside if it is closed.
+fn variants(scene: &Scene) -> Result<(Vec<Variant>, Vec<MeshVariants>)> {
     let of_material: Vec<_> = scene.materials.iter().map(variant).collect::<Result<_>>()?;
-    let mut distinct = of_material.clone();
+    let of_mesh: Vec<_> = scene
+        .meshes
+        .par_iter()
+        .map(|mesh| {
+            let own = of_material[mesh.material as usize].clone();
+            let solid = own.both_sides && !own.masked && is_closed(mesh);
+            (
+                own.clone(),
+                solid.then_some(Variant {
+                    both_sides: false,
+                    ..own
+                }),
+            )
+        })
+        .collect();
+    let mut distinct: Vec<_> = of_mesh
+        .iter()
+        .flat_map(|(own, outside)| [Some(own), outside.as_ref()])
+        .flatten()
+        .cloned()
+        .collect();
     distinct.sort();
     distinct.dedup();
-    let index = of_material
+    let index = |variant: &Variant| distinct.binary_search(variant).unwrap_or(0);
+    let indices = of_mesh
         .iter()
-        .map(|variant| distinct.binary_search(variant).unwrap_or(0))
+        .map(|(own, outside)| MeshVariants {
+            own: index(own),
+            from_outside: outside.as_ref().map(index),
+        })
         .collect();
-    Ok((distinct, index))
+    Ok((distinct, indices))
+}
+
+/// Indices of a mesh's variants.
+#[derive(Clone, Copy, Debug)]
+struct MeshVariants {
+    own: usize,
+    from_outside: Option<usize>,
 }
 
 fn variant(material: &Material) -> Result<Variant> {
@@ -208,7 +228,7 @@ fn variant(material: &Material) -> Result<Variant> {
     }
     Ok(Variant {
         masked: material.value(Parameter::Mask).texture.is_some(),
-        two_sided: material.two_sided,
+        both_sides: material.two_sided,
         specialization,
     })
 }
@@ -233,35 +253,34 @@ fn record(material: &Material) -> MaterialRecord {
 }
 
 /// All triangles in one buffer, sorted by variant and material, so that pipelines change as rarely as they can.
-fn geometry(scene: &Scene, variant_of: &[usize]) -> (Vec<Vertex>, Vec<[u32; 3]>, Vec<Draw>) {
+fn geometry(scene: &Scene, variants: &[MeshVariants]) -> (Vec<Vertex>, Vec<[u32; 3]>, Vec<Draw>) {
     let mut order: Vec<_> = scene
         .meshes
         .iter()
-        .filter(|mesh| !mesh.triangles.is_empty())
+        .zip(variants)
+        .filter(|(mesh, _)| !mesh.triangles.is_empty())
         .collect();
-    order.sort_by_key(|mesh| (variant_of[mesh.material as usize], mesh.material));
+    order.sort_by_key(|(mesh, variants)| (variants.own, variants.from_outside, mesh.material));
     let mut vertices = Vec::new();
     let mut triangles = Vec::new();
-    let mut draws: Vec<Draw> = Vec::new();
-    for mesh in order {
+    let mut draws = Vec::new();
+    for (mesh, variants) in order {
         let base = vertices.len() as u32;
         let first = triangles.len() as u32;
-        let count = mesh.triangles.len() as u32;
         vertices.extend_from_slice(&mesh.vertices);
         triangles.extend(
             mesh.triangles
                 .iter()
                 .map(|triangle| triangle.map(|index| index + base)),
         );
-        match draws.last_mut() {
-            Some(draw) if draw.material == mesh.material => draw.count += count,
-            _ => draws.push(Draw {
-                variant: variant_of[mesh.material as usize],
-                material: mesh.material,
-                first,
-                count,
-            }),
-        }
+        draws.push(Draw {
+            variant: variants.own,
+            from_outside: variants.from_outside,
+            material: mesh.material,
+            first,
+            count: mesh.triangles.len() as u32,
+            bounds: bounds(&mesh.vertices).unwrap_or_default(),
+        });
     }
     (vertices, triangles, draws)
 }

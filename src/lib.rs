@@ -22,6 +22,7 @@
 //! | [`gpu`] | thin safe layer over `ash`, the only module with `unsafe` |
 //! | [`light_tree`] | lights in Hilbert order, and the tree over them |
 //! | [`camera_constants`] | from a camera to what the shaders know of it |
+//! | [`draws`] | runs of triangles: which a camera can see, and from which side |
 //! | [`gpu_scene`] | the scene on the device |
 //! | [`targets`] | every image the frame renders into |
 //! | [`passes`] | one file a pass |
@@ -33,6 +34,7 @@
 pub mod app;
 pub mod camera_constants;
 pub mod compare;
+pub mod draws;
 pub mod error;
 pub mod frame;
 #[allow(unsafe_code, reason = "the one layer that calls Vulkan")]

@@ -175,9 +175,9 @@ mod tests {
                 assert!(node.skip as usize > i && node.skip as usize <= tree.nodes.len());
                 for below in &tree.nodes[i..node.skip as usize] {
                     let first = (below.lights >> LEAF_COUNT_BITS) as usize;
-                    let held = first..first + (below.lights & 63) as usize;
-                    for (count, place) in seen[held.clone()].iter_mut().zip(&tree.lights[held]) {
-                        *count += u32::from(std::ptr::eq(below, node));
+                    let leaf = first..first + (below.lights & 63) as usize;
+                    for (place, seen) in tree.lights[leaf.clone()].iter().zip(&mut seen[leaf]) {
+                        *seen += u32::from(std::ptr::eq(below, node));
                         let range = place.range.unwrap();
                         assert!(place.position.cmpge(Vec3::from(node.lower) + range).all());
                         assert!(place.position.cmple(Vec3::from(node.upper) - range).all());

@@ -98,6 +98,12 @@ const LIMITS: &[Limit] = &[
         "8 material textures beside the light lists",
     ),
     (
+        "maxPerStageDescriptorStorageBuffers",
+        5,
+        |l| l.max_per_stage_descriptor_storage_buffers.into(),
+        "tiles, clusters, counters, pairs and light tree",
+    ),
+    (
         "maxStorageBufferRange",
         1 << 27,
         |l| l.max_storage_buffer_range.into(),

@@ -2,13 +2,12 @@
 //!
 //! Recorded only when asked for, after the frame, against the frame's depth.
 
-use super::{PassInputs, SurfacePipelines};
+use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, Blend, Commands, DescriptorSet, Framebuffer, Image, ImageDescription, Outside,
-    RenderPass, Subpass, Use, shaders,
+    Attachment, Blend, Commands, Framebuffer, Image, ImageDescription, Outside, RenderPass,
+    Subpass, Use, shaders,
 };
-use crate::gpu_scene::GpuScene;
 use crate::shared;
 use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
 
@@ -98,10 +97,10 @@ impl Aov {
     }
 
     /// Draws the variable.
-    pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
+    pub fn record(&self, cmd: &mut Commands, view: &View<'_>) {
         cmd.labelled("aov", |cmd| {
             cmd.begin_pass(&self.pass, &self.framebuffer);
-            self.pipelines.draw(cmd, scene, frame, [0; 2]);
+            self.pipelines.draw(cmd, view, [0; 2]);
             cmd.end_pass();
         });
     }

@@ -10,13 +10,12 @@
 //! Ids and lists come from scans, never from atomics, so they are the same on every run. The pass is recorded only
 //! where the scene has lights with a range.
 
-use super::PassInputs;
+use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
     Buffer, BufferUse, Commands, ComputePipeline, DescriptorSet, Device, Format, Image,
     ImageDescription, Specialization, Use, shaders,
 };
-use crate::gpu_scene::GpuScene;
 use crate::shared::{self, Cluster, Counters, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, Tile};
 use std::sync::Arc;
 
@@ -161,12 +160,11 @@ impl ClusterPass {
     pub fn record(
         &self,
         cmd: &mut Commands,
-        scene: &GpuScene,
-        frame: DescriptorSet<'_>,
+        view: &View<'_>,
         targets: &ClusterTargets,
         tiles: [u32; 2],
     ) {
-        let sets = [frame, scene.set.get(0)];
+        let sets = [view.frame, view.scene.set.get(0)];
         let tiles = [tiles[0], tiles[1], 1];
         cmd.labelled("cluster", |cmd| {
             cmd.bind_compute(&self.slices, &sets);

@@ -3,13 +3,12 @@
 //! Today these are the point lights without a range: they reach everything, so a list would only repeat them.
 
 use super::forward::Work;
-use super::{PassInputs, SurfacePipelines};
+use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
 use crate::gpu::{
-    Blend, Commands, Cull, DepthTest, DescriptorSet, GraphicsDescription, GraphicsPipeline,
-    RenderPass, Specialization, shaders,
+    Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass,
+    Specialization, shaders,
 };
-use crate::gpu_scene::GpuScene;
 use crate::shared;
 
 /// Lights of one draw; the draws of a surface add up. lavapipe ends a shader's loops, without a word, after 65,535
@@ -58,17 +57,17 @@ impl Direct {
     }
 
     /// Draws background and unranged lights.
-    pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
-        let count = scene.lights.lights.len() as u32;
+    pub fn record(&self, cmd: &mut Commands, view: &View<'_>) {
+        let count = view.scene.lights.lights.len() as u32;
         if let Some(background) = &self.background {
             cmd.bind_graphics(background);
-            cmd.bind_sets(shared::frame::SET, &[frame]);
+            cmd.bind_sets(shared::frame::SET, &[view.frame]);
             cmd.draw_fullscreen();
         }
         if let Some(unranged) = &self.unranged {
             for first in (self.first_light..count).step_by(LIGHTS_PER_DRAW as usize) {
                 let end = count.min(first + LIGHTS_PER_DRAW);
-                unranged.draw(cmd, scene, frame, [first, end]);
+                unranged.draw(cmd, view, [first, end]);
             }
         }
     }

@@ -2,15 +2,14 @@
 //!
 //! Reads depth and light lists; adds radiance to the HDR image and writes the display-referred picture.
 
-use super::PassInputs;
 use super::direct::Direct;
 use super::indirect::Indirect;
 use super::present::Present;
+use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, Commands, DescriptorSet, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use,
+    Attachment, Commands, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use,
 };
-use crate::gpu_scene::GpuScene;
 use crate::scene::settings::Tonemap;
 use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, LDR_FORMAT, Targets};
 
@@ -77,8 +76,7 @@ impl Forward {
     pub fn record(
         &self,
         cmd: &mut Commands,
-        scene: &GpuScene,
-        frame: DescriptorSet<'_>,
+        view: &View<'_>,
         sample: Sample,
         timestamps: (&Timestamps, u32),
     ) {
@@ -95,16 +93,16 @@ impl Forward {
             },
             &self.framebuffer,
         );
-        cmd.labelled("direct", |cmd| self.direct.record(cmd, scene, frame));
+        cmd.labelled("direct", |cmd| self.direct.record(cmd, view));
         done(cmd);
         if let Some(indirect) = &self.indirect {
             cmd.next_subpass();
-            cmd.labelled("indirect", |cmd| indirect.record(cmd, scene, frame));
+            cmd.labelled("indirect", |cmd| indirect.record(cmd, view));
             done(cmd);
         }
         cmd.next_subpass();
         cmd.labelled("present", |cmd| {
-            self.present.record(cmd, frame, sample.scale)
+            self.present.record(cmd, view, sample.scale)
         });
         cmd.end_pass();
         done(cmd);

@@ -1,9 +1,8 @@
 //! Subpass *indirect*: the many lights, through the lists of the clusters.
 
-use super::{PassInputs, SurfacePipelines};
+use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
-use crate::gpu::{Blend, Commands, DescriptorSet, RenderPass, shaders};
-use crate::gpu_scene::GpuScene;
+use crate::gpu::{Blend, Commands, RenderPass, shaders};
 
 /// Pipelines of the subpass.
 pub struct Indirect(SurfacePipelines);
@@ -18,7 +17,7 @@ impl Indirect {
     }
 
     /// Adds every listed light.
-    pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
-        self.0.draw(cmd, scene, frame, [0; 2]);
+    pub fn record(&self, cmd: &mut Commands, view: &View<'_>) {
+        self.0.draw(cmd, view, [0; 2]);
     }
 }

@@ -12,6 +12,7 @@ pub mod pairs;
 pub mod prepass;
 pub mod present;
 
+use crate::draws::VisibleDraw;
 use crate::error::Result;
 use crate::gpu::{
     Blend, Commands, DepthTest, DescriptorSet, Device, GraphicsDescription, GraphicsPipeline,
@@ -71,44 +72,53 @@ impl SurfacePipelines {
     }
 
     /// Draws the whole scene; `lights` is for the shaders that evaluate a range of lights.
-    fn draw(
-        &self,
-        cmd: &mut Commands,
-        scene: &GpuScene,
-        frame: DescriptorSet<'_>,
-        lights: [u32; 2],
-    ) {
-        draw_scene(cmd, scene, frame, lights, |variant| &self.0[variant]);
+    fn draw(&self, cmd: &mut Commands, view: &View<'_>, lights: [u32; 2]) {
+        draw_scene(cmd, view, lights, |variant| &self.0[variant]);
     }
 }
 
-/// Draws the scene, each draw with the pipeline of its variant.
+/// What a frame draws: the scene, the part of it that is in view, and the frame's descriptors.
+#[derive(Clone, Copy)]
+pub struct View<'a> {
+    /// Scene.
+    pub scene: &'a GpuScene,
+    /// What of it is in view.
+    pub draws: &'a [VisibleDraw],
+    /// Set 0.
+    pub frame: DescriptorSet<'a>,
+}
+
+/// Draws what is in view, each draw with the pipeline of its variant.
 fn draw_scene<'a>(
     cmd: &mut Commands,
-    scene: &GpuScene,
-    frame: DescriptorSet<'_>,
+    view: &View<'_>,
     lights: [u32; 2],
     pipeline: impl Fn(usize) -> &'a GraphicsPipeline,
 ) {
+    let scene = view.scene;
     cmd.bind_triangles(&scene.vertices, &scene.triangles);
-    let mut bound = None;
-    for draw in &scene.draws {
-        if bound != Some(draw.variant) {
+    let mut variant = None;
+    let mut material = None;
+    for draw in view.draws {
+        if variant != Some(draw.variant) {
             cmd.bind_graphics(pipeline(draw.variant));
-            if bound.is_none() {
-                cmd.bind_sets(shared::frame::SET, &[frame, scene.set.get(0)]);
+            if variant.is_none() {
+                cmd.bind_sets(shared::frame::SET, &[view.frame, scene.set.get(0)]);
             }
-            bound = Some(draw.variant);
+            variant = Some(draw.variant);
         }
-        cmd.bind_sets(
-            shared::material::SET,
-            &[scene.materials.get(draw.material as usize)],
-        );
-        cmd.push(&DrawConstants {
-            material: draw.material,
-            scale: 0.0,
-            lights,
-        });
+        if material != Some(draw.material) {
+            cmd.bind_sets(
+                shared::material::SET,
+                &[scene.materials.get(draw.material as usize)],
+            );
+            cmd.push(&DrawConstants {
+                material: draw.material,
+                scale: 0.0,
+                lights,
+            });
+            material = Some(draw.material);
+        }
         cmd.draw_triangles(draw.first, draw.count);
     }
 }

@@ -2,13 +2,13 @@
 //!
 //! Reads the scene's triangles, writes depth. Cheap beside shading, and it removes all overdraw from it.
 
-use super::{PassInputs, draw_scene};
+use super::{PassInputs, View, draw_scene};
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, Commands, DepthTest, DescriptorSet, Framebuffer, GraphicsDescription,
-    GraphicsPipeline, Outside, RenderPass, Subpass, Use, shaders,
+    Attachment, Commands, DepthTest, Framebuffer, GraphicsDescription, GraphicsPipeline, Outside,
+    RenderPass, Subpass, Use, shaders,
 };
-use crate::gpu_scene::{GpuScene, Variant};
+use crate::gpu_scene::Variant;
 use crate::targets::{DEPTH_FORMAT, Targets};
 
 /// The depth prepass.
@@ -77,12 +77,10 @@ impl Prepass {
     }
 
     /// Draws the scene's depth.
-    pub fn record(&self, cmd: &mut Commands, scene: &GpuScene, frame: DescriptorSet<'_>) {
+    pub fn record(&self, cmd: &mut Commands, view: &View<'_>) {
         cmd.labelled("prepass", |cmd| {
             cmd.begin_pass(&self.pass, &self.framebuffer);
-            draw_scene(cmd, scene, frame, [0; 2], |variant| {
-                &self.pipelines[variant]
-            });
+            draw_scene(cmd, view, [0; 2], |variant| &self.pipelines[variant]);
             cmd.end_pass();
         });
     }

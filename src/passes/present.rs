@@ -1,10 +1,10 @@
 //! Subpass *present*: reads the HDR colour at its pixel; exposure, tone curve, sRGB encoding.
 
-use super::PassInputs;
+use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
-    Blend, Commands, Cull, DepthTest, DescriptorSet, GraphicsDescription, GraphicsPipeline,
-    RenderPass, Specialization, shaders,
+    Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass,
+    Specialization, shaders,
 };
 use crate::scene::settings::Tonemap;
 use crate::shared::{self, DrawConstants};
@@ -43,9 +43,9 @@ impl Present {
     }
 
     /// Encodes the picture: the sum of samples times `scale`.
-    pub fn record(&self, cmd: &mut Commands, frame: DescriptorSet<'_>, scale: f32) {
+    pub fn record(&self, cmd: &mut Commands, view: &View<'_>, scale: f32) {
         cmd.bind_graphics(&self.0);
-        cmd.bind_sets(shared::frame::SET, &[frame]);
+        cmd.bind_sets(shared::frame::SET, &[view.frame]);
         cmd.push(&DrawConstants {
             scale,
             ..DrawConstants::default()

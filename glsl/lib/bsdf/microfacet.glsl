@@ -63,9 +63,10 @@ float ggx_visibility_correlated(Ggx ggx, float cos_o, float cos_i, vec3 wi) {
     return cos_i / max(cos_i * ggx.stretch_o + cos_o * ggx_stretch(ggx, wi), TINY);
 }
 
-// cosθi V1(wi) of Smith's separable visibility, V = V1(wi) V1(wo) with V1(w) = 1 / (cosθ + L(w)).
+// cosθi V1(wi) of Smith's separable visibility, V = V1(wi) V1(wo) with V1(w) = 1 / (cosθ + L(w)). L(0) = 0, and wi = 0
+// is what a light on the surface has for a direction.
 float ggx_visibility_separable(Ggx ggx, float cos_i, vec3 wi) {
-    return cos_i / (cos_i + ggx_stretch(ggx, wi));
+    return cos_i / max(cos_i + ggx_stretch(ggx, wi), TINY);
 }
 
 #endif

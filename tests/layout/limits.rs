@@ -1,0 +1,143 @@
+//! What amas asks of a device (`src/gpu/requirements.rs`), and that no shader asks for more.
+
+use std::collections::BTreeSet;
+
+use amas::gpu::Stage;
+use amas::shared::{BindingKind, frame, material, probe, scene};
+
+use crate::spirv::{Module, Type, class, decoration};
+use crate::{constant, modules};
+
+/// Capabilities that shaders may declare, each with the reason that no feature has to be turned on for it. Not here:
+/// Float64, Int64, Int16, Float16, subgroups, image queries, formatless storage images, non-uniform indexing.
+const CAPABILITIES: [(u32, &str); 2] = [
+    (1, "Shader: what a graphics device is"),
+    (
+        40,
+        "InputAttachment: the present subpass reads the colour of its pixel; part of every render pass",
+    ),
+];
+
+/// `maxBoundDescriptorSets` of every device.
+const DESCRIPTOR_SETS: u32 = 4;
+/// `maxPushConstantsSize` of every device.
+const PUSH_CONSTANT_BYTES: u32 = 128;
+/// `maxComputeSharedMemorySize` of every device.
+const SHARED_MEMORY_BYTES: u32 = 16_384;
+/// `maxComputeWorkGroupInvocations` that amas asks for.
+const WORKGROUP_INVOCATIONS: u32 = 256;
+/// `maxPerStageDescriptorStorageBuffers` that amas asks for.
+const STORAGE_BUFFERS: u32 = 5;
+/// `maxPerStageDescriptorSampledImages` of every device; combined ones count.
+const SAMPLED_IMAGES: u32 = 16;
+/// `maxPerStageDescriptorStorageImages` of every device.
+const STORAGE_IMAGES: u32 = 4;
+
+#[test]
+fn capabilities_are_those_of_every_device() {
+    for (shader, module) in modules() {
+        for &capability in &module.capabilities {
+            let allowed = CAPABILITIES.iter().any(|row| row.0 == capability);
+            assert!(
+                allowed,
+                "{}: capability {capability} is none of {CAPABILITIES:?}",
+                shader.name
+            );
+        }
+        let none: &[String] = &[];
+        assert_eq!(module.extensions, none, "{}: extensions", shader.name);
+    }
+}
+
+#[test]
+fn workgroups_have_the_size_that_dispatches_assume() {
+    let sized = |name| constant(name).unwrap();
+    let (linear, scan, tile) = (
+        sized("LINEAR_GROUP"),
+        sized("SCAN_GROUP"),
+        sized("TILE_SIZE"),
+    );
+    assert_eq!(sized("TILE_PIXELS"), tile * tile);
+    for (shader, module) in modules() {
+        let want = match shader.name {
+            _ if shader.stage != Stage::Compute => None,
+            "cluster/slices.comp" | "cluster/bounds.comp" | "cluster/pairs.comp" => {
+                Some([tile, tile, 1])
+            }
+            "cluster/scan_tiles.comp" | "cluster/scan_lists.comp" => Some([scan, 1, 1]),
+            // One invocation per element.
+            _ => Some([linear, 1, 1]),
+        };
+        assert_eq!(module.local_size, want, "{}: local size", shader.name);
+        let invocations: u32 = want.into_iter().flatten().product();
+        assert!(
+            invocations <= WORKGROUP_INVOCATIONS,
+            "{}: {invocations} invocations",
+            shader.name
+        );
+    }
+}
+
+#[test]
+fn memory_and_descriptors_fit_every_device() {
+    for (shader, module) in modules() {
+        let sum = |class| bytes(&module, class);
+        let (push, shared) = (sum(class::PUSH_CONSTANT), sum(class::WORKGROUP));
+        assert!(
+            push <= PUSH_CONSTANT_BYTES,
+            "{}: {push} bytes of push constants",
+            shader.name
+        );
+        assert!(
+            shared <= SHARED_MEMORY_BYTES,
+            "{}: {shared} bytes of shared memory",
+            shader.name
+        );
+        let sets = module
+            .variables
+            .iter()
+            .filter_map(|v| module.decoration(v.id, decoration::DESCRIPTOR_SET));
+        let sets = sets.max().map_or(0, |highest| highest + 1);
+        assert!(
+            sets <= DESCRIPTOR_SETS,
+            "{}: {sets} descriptor sets",
+            shader.name
+        );
+    }
+}
+
+/// Layouts show every descriptor to every stage, so each stage carries the sum of all sets.
+#[test]
+fn pipeline_layouts_fit_the_device_that_amas_asks_for() {
+    let sets = [frame::BINDINGS, scene::BINDINGS, material::BINDINGS];
+    let count = |kinds: &[BindingKind]| -> u32 {
+        let bindings = sets.iter().copied().flatten();
+        let matching = bindings.filter(|binding| kinds.contains(&binding.kind));
+        matching.map(|binding| binding.count).sum()
+    };
+    assert!(count(&[BindingKind::Storage]) <= STORAGE_BUFFERS);
+    assert!(count(&[BindingKind::Sampled, BindingKind::Combined]) <= SAMPLED_IMAGES);
+    assert!(count(&[BindingKind::StorageImage]) <= STORAGE_IMAGES);
+    for table in sets.into_iter().chain([probe::BINDINGS]) {
+        let numbers: BTreeSet<_> = table.iter().map(|binding| binding.binding).collect();
+        assert_eq!(
+            numbers.len(),
+            table.len(),
+            "binding numbers are unique: {table:?}"
+        );
+    }
+}
+
+/// Bytes of all variables of a storage class.
+fn bytes(module: &Module, class: u32) -> u32 {
+    let variables = module
+        .variables
+        .iter()
+        .filter(|variable| variable.class == class);
+    variables
+        .map(|variable| match module.typed(variable.pointer) {
+            Type::Pointer { of } => module.extent(*of, 0),
+            _ => 0,
+        })
+        .sum()
+}
