@@ -7,12 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 #[path = "src/shared.rs"]
-#[allow(
-    dead_code,
-    missing_docs,
-    unreachable_pub,
-    reason = "only GLSL is used here"
-)]
+#[allow(dead_code, missing_docs, unreachable_pub, reason = "only GLSL is used here")]
 mod shared;
 
 const STAGES: [(&str, shaderc::ShaderKind, &str); 3] = [
@@ -32,6 +27,7 @@ fn main() {
 fn compile_all() -> Result<(), String> {
     let out = PathBuf::from(std::env::var("OUT_DIR").map_err(|error| error.to_string())?);
     println!("cargo:rerun-if-changed=src/shared.rs");
+    println!("cargo:rerun-if-changed=src/shared");
     // The whole folder: every include is in it, and so is every shader that is added.
     println!("cargo:rerun-if-changed=glsl");
     write(&out.join("shared.glsl"), shared::GLSL)?;
@@ -50,11 +46,7 @@ fn compile_all() -> Result<(), String> {
         let name = constant_name(source);
         let spirv = out.join(format!("{name}.spv"));
         fs::write(&spirv, words).map_err(|error| format!("{}: {error}", spirv.display()))?;
-        let label = source
-            .strip_prefix("glsl")
-            .unwrap_or(source)
-            .display()
-            .to_string();
+        let label = source.strip_prefix("glsl").unwrap_or(source).display().to_string();
         writeln!(
             table,
             "/// `glsl/{label}`.\npub const {name}: Shader = Shader {{ name: {label:?}, stage: Stage::{stage}, \
@@ -63,21 +55,15 @@ fn compile_all() -> Result<(), String> {
         .map_err(|error| error.to_string())?;
     }
     let names: Vec<String> = sources.iter().map(|source| constant_name(source)).collect();
-    writeln!(
-        table,
-        "/// Every shader.\npub const ALL: &[Shader] = &[{}];",
-        names.join(", ")
-    )
-    .map_err(|error| error.to_string())?;
+    writeln!(table, "/// Every shader.\npub const ALL: &[Shader] = &[{}];", names.join(", "))
+        .map_err(|error| error.to_string())?;
     write(&out.join("shaders.rs"), &table)
 }
 
 /// `glsl/cluster/slices.comp` → `CLUSTER_SLICES_COMP`.
 fn constant_name(source: &Path) -> String {
     let path = source.strip_prefix("glsl").unwrap_or(source);
-    path.to_string_lossy()
-        .replace(['/', '.', '-'], "_")
-        .to_uppercase()
+    path.to_string_lossy().replace(['/', '.', '-'], "_").to_uppercase()
 }
 
 fn collect(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<(), String> {
@@ -85,10 +71,7 @@ fn collect(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<(), String> {
         let path = entry.map_err(|error| error.to_string())?.path();
         if path.is_dir() {
             collect(&path, sources)?;
-        } else if STAGES
-            .iter()
-            .any(|(extension, ..)| path.extension().is_some_and(|e| e == *extension))
-        {
+        } else if STAGES.iter().any(|(extension, ..)| path.extension().is_some_and(|e| e == *extension)) {
             sources.push(path);
         }
     }
@@ -101,10 +84,7 @@ fn compile(
     kind: shaderc::ShaderKind,
 ) -> Result<Vec<u8>, String> {
     let mut options = shaderc::CompileOptions::new().map_err(|error| error.to_string())?;
-    options.set_target_env(
-        shaderc::TargetEnv::Vulkan,
-        shaderc::EnvVersion::Vulkan1_2 as u32,
-    );
+    options.set_target_env(shaderc::TargetEnv::Vulkan, shaderc::EnvVersion::Vulkan1_2 as u32);
     options.set_optimization_level(shaderc::OptimizationLevel::Performance);
     options.set_warnings_as_errors();
     // Names and lines survive optimisation: captures stay readable, and tests compare layouts by name.
@@ -116,26 +96,13 @@ fn compile(
             fs::read_to_string(Path::new("glsl").join(name))
                 .map_err(|error| format!("glsl/{name}: {error}"))?
         };
-        let resolved_name = if name == "shared.glsl" {
-            "src/shared.rs".into()
-        } else {
-            format!("glsl/{name}")
-        };
-        Ok(shaderc::ResolvedInclude {
-            resolved_name,
-            content: text,
-        })
+        let resolved_name =
+            if name == "shared.glsl" { "src/shared.rs".into() } else { format!("glsl/{name}") };
+        Ok(shaderc::ResolvedInclude { resolved_name, content: text })
     });
-    let text =
-        fs::read_to_string(source).map_err(|error| format!("{}: {error}", source.display()))?;
+    let text = fs::read_to_string(source).map_err(|error| format!("{}: {error}", source.display()))?;
     let artifact = compiler
-        .compile_into_spirv(
-            &text,
-            kind,
-            &source.to_string_lossy(),
-            "main",
-            Some(&options),
-        )
+        .compile_into_spirv(&text, kind, &source.to_string_lossy(), "main", Some(&options))
         .map_err(|error| error.to_string())?;
     Ok(artifact.as_binary_u8().to_vec())
 }

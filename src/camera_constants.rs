@@ -66,36 +66,18 @@ struct Rays {
 }
 
 impl<'a> View<'a> {
-    fn new(
-        camera: &'a Camera,
-        size: [u32; 2],
-        jitter: [f64; 2],
-        bounds: Option<[DVec3; 2]>,
-    ) -> Self {
+    fn new(camera: &'a Camera, size: [u32; 2], jitter: [f64; 2], bounds: Option<[DVec3; 2]>) -> Self {
         let size = DVec2::new(f64::from(size[0]), f64::from(size[1]));
         let (half_height, perspective) = match camera.projection {
-            Projection::Perspective { vertical_fov } => {
-                ((vertical_fov.to_radians() / 2.0).tan(), true)
-            }
+            Projection::Perspective { vertical_fov } => ((vertical_fov.to_radians() / 2.0).tan(), true),
             Projection::Orthographic { height } => (height / 2.0, false),
         };
         let basis = camera.basis();
         let depths = depth_range(camera, basis.forward, bounds);
         // An orthographic depth is linear and cannot be infinite: the scene's end is far enough.
-        let far = camera
-            .far
-            .or((!perspective).then_some(depths[1] * 1.001 + 1e-3));
+        let far = camera.far.or((!perspective).then_some(depths[1] * 1.001 + 1e-3));
         let half = DVec2::new(half_height * size.x / size.y, half_height);
-        Self {
-            camera,
-            basis,
-            size,
-            jitter: DVec2::from(jitter),
-            half,
-            perspective,
-            far,
-            depths,
-        }
+        Self { camera, basis, size, jitter: DVec2::from(jitter), half, perspective, far, depths }
     }
 
     /// Reversed depth: near to 1, far to 0.
@@ -108,12 +90,9 @@ impl<'a> View<'a> {
         let near = self.camera.near;
         let zero = DVec3::ZERO;
         let (x, y, z, w) = match (self.perspective, self.far) {
-            (true, None) => (
-                (x + shift.x * forward, 0.0),
-                (y + shift.y * forward, 0.0),
-                (zero, near),
-                (forward, 0.0),
-            ),
+            (true, None) => {
+                ((x + shift.x * forward, 0.0), (y + shift.y * forward, 0.0), (zero, near), (forward, 0.0))
+            }
             (true, Some(far)) => (
                 (x + shift.x * forward, 0.0),
                 (y + shift.y * forward, 0.0),
@@ -122,12 +101,7 @@ impl<'a> View<'a> {
             ),
             (false, far) => {
                 let far = far.unwrap_or(near + 1.0);
-                (
-                    (x, shift.x),
-                    (y, shift.y),
-                    (-forward / (far - near), far / (far - near)),
-                    (zero, 1.0),
-                )
+                ((x, shift.x), (y, shift.y), (-forward / (far - near), far / (far - near)), (zero, 1.0))
             }
         };
         // Rows to columns.
@@ -162,15 +136,9 @@ impl<'a> View<'a> {
         let spread = [start, right * 2.0 / self.size.x, -up * 2.0 / self.size.y];
         let forward = self.basis.forward;
         if self.perspective {
-            Rays {
-                origin: [DVec3::ZERO; 3],
-                direction: [forward + spread[0], spread[1], spread[2]],
-            }
+            Rays { origin: [DVec3::ZERO; 3], direction: [forward + spread[0], spread[1], spread[2]] }
         } else {
-            Rays {
-                origin: spread,
-                direction: [forward, DVec3::ZERO, DVec3::ZERO],
-            }
+            Rays { origin: spread, direction: [forward, DVec3::ZERO, DVec3::ZERO] }
         }
     }
 
@@ -199,24 +167,12 @@ fn depth_range(camera: &Camera, forward: DVec3, bounds: Option<[DVec3; 2]>) -> [
         return [camera.near, camera.near * 2.0];
     };
     let depths = (0..8).map(|corner| {
-        let pick = DVec3::new(
-            f64::from(corner & 1),
-            f64::from(corner >> 1 & 1),
-            f64::from(corner >> 2),
-        );
+        let pick = DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2));
         (lower + (upper - lower) * pick - camera.position).dot(forward)
     });
-    let (least, most) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), z| {
-        (a.min(z), b.max(z))
-    });
+    let (least, most) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), z| (a.min(z), b.max(z)));
     let nearest = least.max(camera.near);
-    [
-        nearest,
-        camera
-            .far
-            .map_or(most, |far| most.min(far))
-            .max(nearest * 1.001),
-    ]
+    [nearest, camera.far.map_or(most, |far| most.min(far)).max(nearest * 1.001)]
 }
 
 #[cfg(test)]
@@ -252,9 +208,7 @@ mod tests {
                 let p = DVec3::new(0.2, 1.1, -1.3);
                 let rel = (p - camera.position).extend(1.0);
                 let clip: [f64; 4] = std::array::from_fn(|row| {
-                    (0..4)
-                        .map(|k| f64::from(c.clip_from_eye[k][row]) * rel[k])
-                        .sum()
+                    (0..4).map(|k| f64::from(c.clip_from_eye[k][row]) * rel[k]).sum()
                 });
                 let depth = clip[2] / clip[3];
                 assert!(depth > 0.0 && depth < 1.0);
@@ -268,9 +222,7 @@ mod tests {
                     + d(c.ray_origin)
                     + x * d(c.ray_origin_dx)
                     + y * d(c.ray_origin_dy)
-                    + z * (d(c.ray_direction)
-                        + x * d(c.ray_direction_dx)
-                        + y * d(c.ray_direction_dy));
+                    + z * (d(c.ray_direction) + x * d(c.ray_direction_dx) + y * d(c.ray_direction_dy));
                 assert!((back - p).length() < 1e-4, "{back} {p}");
             }
         }
@@ -280,16 +232,11 @@ mod tests {
     fn slices_stay_in_range_for_any_depth() {
         for far in [1.0, 10.0, 1e3, 1e6] {
             let bounds = Some([DVec3::splat(-far), DVec3::splat(far)]);
-            for projection in [
-                Projection::Perspective { vertical_fov: 1.0 },
-                Projection::Orthographic { height: 0.1 },
-            ] {
+            for projection in
+                [Projection::Perspective { vertical_fov: 1.0 }, Projection::Orthographic { height: 0.1 }]
+            {
                 let c = camera_constants(&camera(projection, None), [64, 64], [0.0; 2], bounds);
-                assert!(
-                    c.slice_count >= 1 && c.slice_count <= MAX_SLICES,
-                    "{}",
-                    c.slice_count
-                );
+                assert!(c.slice_count >= 1 && c.slice_count <= MAX_SLICES, "{}", c.slice_count);
                 assert!(c.slice_start > 0.0 && c.slice_scale.is_finite());
             }
         }

@@ -49,16 +49,9 @@ pub fn visible(draws: &[Draw], constants: &FrameConstants) -> Vec<VisibleDraw> {
             continue;
         }
         // Wholly behind the near plane, so that no cut shows the inside.
-        let from_outside = draw
-            .from_outside
-            .filter(|_| corners.iter().all(|c| c.w > 0.0 && c.z < c.w));
+        let from_outside = draw.from_outside.filter(|_| corners.iter().all(|c| c.w > 0.0 && c.z < c.w));
         let variant = from_outside.unwrap_or(draw.variant);
-        let next = VisibleDraw {
-            variant,
-            material: draw.material,
-            first: draw.first,
-            count: draw.count,
-        };
+        let next = VisibleDraw { variant, material: draw.material, first: draw.first, count: draw.count };
         match visible.last_mut() {
             Some(last)
                 if (last.variant, last.material) == (variant, draw.material)
@@ -77,11 +70,7 @@ pub fn visible(draws: &[Draw], constants: &FrameConstants) -> Vec<VisibleDraw> {
 fn corners([lower, upper]: [DVec3; 2]) -> [DVec3; 8] {
     std::array::from_fn(|i| {
         let pick = |axis: usize| {
-            if i >> axis & 1 == 0 {
-                lower[axis]
-            } else {
-                upper[axis]
-            }
+            if i >> axis & 1 == 0 { lower[axis] } else { upper[axis] }
         };
         DVec3::new(pick(0), pick(1), pick(2))
     })
@@ -108,17 +97,12 @@ pub fn is_closed(mesh: &Mesh) -> bool {
     let ids: Vec<u32> = (0..mesh.vertices.len() as u32)
         .map(|index| {
             let next = welded.len() as u32;
-            *welded
-                .entry(position(index).map(|v| (v + 0.0).to_bits()))
-                .or_insert(next)
+            *welded.entry(position(index).map(|v| (v + 0.0).to_bits())).or_insert(next)
         })
         .collect();
     let mut edges: HashMap<(u32, u32), i32> = HashMap::new();
     let mut volume = 0.0;
-    let origin = mesh
-        .vertices
-        .first()
-        .map_or(DVec3::ZERO, |v| Vec3::from(v.position).as_dvec3());
+    let origin = mesh.vertices.first().map_or(DVec3::ZERO, |v| Vec3::from(v.position).as_dvec3());
     for triangle in &mesh.triangles {
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             let (a, b) = (ids[triangle[from] as usize], ids[triangle[to] as usize]);
@@ -140,10 +124,7 @@ mod tests {
         let text = format!(
             "[[camera]]\nname = \"c\"\nposition = [0, 0, 5]\ntarget = [0, 0, 0]\nvertical_fov = 40\n[[mesh]]\n{text}"
         );
-        load_embedded("test.toml", &text, &[], &[])
-            .unwrap()
-            .meshes
-            .remove(0)
+        load_embedded("test.toml", &text, &[], &[]).unwrap().meshes.remove(0)
     }
 
     #[test]
@@ -155,10 +136,7 @@ mod tests {
         assert!(!is_closed(&mesh("shape = \"plane\"\nsize = 1")));
         assert!(!is_closed(&mesh("shape = \"disk\"\nradius = 1")));
         let mut inside_out = mesh("shape = \"sphere\"\nradius = 1");
-        inside_out
-            .triangles
-            .iter_mut()
-            .for_each(|triangle| triangle.swap(0, 1));
+        inside_out.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
         assert!(!is_closed(&inside_out));
         let mut open = mesh("shape = \"sphere\"\nradius = 1");
         open.triangles.pop();
@@ -167,10 +145,9 @@ mod tests {
 
     #[test]
     fn draws_are_culled_by_frustum_and_facing() {
-        for projection in [
-            Projection::Perspective { vertical_fov: 40.0 },
-            Projection::Orthographic { height: 4.0 },
-        ] {
+        for projection in
+            [Projection::Perspective { vertical_fov: 40.0 }, Projection::Orthographic { height: 4.0 }]
+        {
             let camera = Camera {
                 name: "c".into(),
                 position: DVec3::new(0.0, 0.0, 5.0),
@@ -188,29 +165,17 @@ mod tests {
                 material: 0,
                 first,
                 count: 1,
-                bounds: [
-                    DVec3::new(x - 0.5, -0.5, z - 0.5),
-                    DVec3::new(x + 0.5, 0.5, z + 0.5),
-                ],
+                bounds: [DVec3::new(x - 0.5, -0.5, z - 0.5), DVec3::new(x + 0.5, 0.5, z + 0.5)],
             };
-            let seen = |draw: Draw| {
-                visible(&[draw], &constants)
-                    .first()
-                    .map(|draw| draw.variant)
-            };
+            let seen = |draw: Draw| visible(&[draw], &constants).first().map(|draw| draw.variant);
             assert_eq!(seen(at(0.0, 0.0, 0)), Some(1));
             assert_eq!(seen(at(0.0, 4.0, 0)), Some(0), "the near plane cuts it");
             assert_eq!(seen(at(9.0, 0.0, 0)), None);
             assert_eq!(seen(at(0.0, 9.0, 0)), None, "behind the eye");
             assert_eq!(seen(at(0.0, -30.0, 0)), None, "beyond the far plane");
-            let both = visible(
-                &[at(0.0, 0.0, 0), at(0.1, 0.0, 1), at(0.2, 0.0, 5)],
-                &constants,
-            );
+            let both = visible(&[at(0.0, 0.0, 0), at(0.1, 0.0, 1), at(0.2, 0.0, 5)], &constants);
             assert_eq!(
-                both.iter()
-                    .map(|draw| (draw.first, draw.count))
-                    .collect::<Vec<_>>(),
+                both.iter().map(|draw| (draw.first, draw.count)).collect::<Vec<_>>(),
                 [(0, 2), (5, 1)]
             );
         }

@@ -93,10 +93,7 @@ impl Error {
 
     /// An [`Error::Usage`].
     pub fn usage(cause: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::Usage {
-            cause: cause.into(),
-            remedy: remedy.into(),
-        }
+        Self::Usage { cause: cause.into(), remedy: remedy.into() }
     }
 
     /// The process's exit status: 2 bad usage or input, 3 no device, 1 any other failure.

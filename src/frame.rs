@@ -96,26 +96,15 @@ impl Frame {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
-    pub fn new(
-        device: &Arc<Device>,
-        scene: &Arc<GpuScene>,
-        settings: FrameSettings,
-    ) -> Result<Self> {
-        let inputs = PassInputs {
-            device,
-            scene,
-            perspective: settings.perspective,
-        };
+    pub fn new(device: &Arc<Device>, scene: &Arc<GpuScene>, settings: FrameSettings) -> Result<Self> {
+        let inputs = PassInputs { device, scene, perspective: settings.perspective };
         let work = work(scene, &settings);
         let targets = Targets::new(device, settings.size)?;
         let tiles = tiles(settings.size);
         let pass_names = pass_names(work);
         let frame = Self {
             prepass: Prepass::new(&inputs, &targets)?,
-            cluster: work
-                .clustered
-                .then(|| ClusterPass::new(&inputs))
-                .transpose()?,
+            cluster: work.clustered.then(|| ClusterPass::new(&inputs)).transpose()?,
             forward: Forward::new(&inputs, &targets, work)?,
             lists: ClusterTargets::new(device, tiles, Capacity::start(tiles))?,
             constants: Buffer::new(device, "frame constants", BufferUse::Uniform, 1)?,
@@ -155,10 +144,7 @@ impl Frame {
         let mut watch = Stopwatch::start(&self.pass_names);
         for index in 0..inputs.samples {
             self.update_constants(inputs.camera, jitter(index, inputs.samples))?;
-            let sample = Sample {
-                first: index == 0,
-                scale: inputs.exposure.exp2() / (index + 1) as f32,
-            };
+            let sample = Sample { first: index == 0, scale: inputs.exposure.exp2() / (index + 1) as f32 };
             self.submit(sample, inputs.split, &mut watch)?;
             watch.add_gpu(self.timestamps.intervals()?);
             self.samples = index + 1;
@@ -166,8 +152,7 @@ impl Frame {
             if self.cluster.is_some()
                 && let Some(capacity) = self.lists.capacity.grown(&self.counters)
             {
-                self.lists =
-                    ClusterTargets::new(&self.device, tiles(self.settings.size), capacity)?;
+                self.lists = ClusterTargets::new(&self.device, tiles(self.settings.size), capacity)?;
                 self.bind();
                 return Ok(None);
             }
@@ -209,18 +194,10 @@ impl Frame {
 
     fn record_cluster(&self, cmd: &mut Commands) {
         let Some(cluster) = &self.cluster else { return };
-        cmd.transition(
-            &self.targets.cluster_ids,
-            Use::FragmentRead,
-            Use::ComputeWrite,
-        );
+        cmd.transition(&self.targets.cluster_ids, Use::FragmentRead, Use::ComputeWrite);
         cmd.transition(&self.lists.lists, Use::FragmentRead, Use::ComputeWrite);
         cluster.record(cmd, &self.view(), &self.lists, tiles_of(self.settings.size));
-        cmd.transition(
-            &self.targets.cluster_ids,
-            Use::ComputeWrite,
-            Use::FragmentRead,
-        );
+        cmd.transition(&self.targets.cluster_ids, Use::ComputeWrite, Use::FragmentRead);
         cmd.transition(&self.lists.lists, Use::ComputeWrite, Use::FragmentRead);
         cmd.memory_barrier(Use::ComputeWrite, Use::FragmentRead);
         cmd.timestamp(&self.timestamps, 2);
@@ -228,8 +205,7 @@ impl Frame {
 
     fn record_forward(&self, cmd: &mut Commands, sample: Sample) {
         let stamp = 2 + u32::from(self.cluster.is_some());
-        self.forward
-            .record(cmd, &self.view(), sample, (&self.timestamps, stamp));
+        self.forward.record(cmd, &self.view(), sample, (&self.timestamps, stamp));
         cmd.memory_barrier(Use::ComputeWrite, Use::TransferRead);
         cmd.copy_buffer(&self.lists.counters, &self.readback);
         cmd.memory_barrier(Use::TransferWrite, Use::HostRead);
@@ -238,11 +214,7 @@ impl Frame {
     fn update_constants(&mut self, camera: &Camera, jitter: [f64; 2]) -> Result<()> {
         let mut constants = camera_constants(camera, self.settings.size, jitter, self.scene.bounds);
         constants.light_count = self.scene.lights.lights.len() as u32;
-        constants.direct_begin = if self.settings.brute_force {
-            0
-        } else {
-            self.scene.lights.ranged as u32
-        };
+        constants.direct_begin = if self.settings.brute_force { 0 } else { self.scene.lights.ranged as u32 };
         constants.node_count = self.scene.lights.nodes.len() as u32;
         constants.max_list = self.settings.max_lights_per_cluster;
         constants.cluster_capacity = self.lists.capacity.clusters;
@@ -254,31 +226,15 @@ impl Frame {
     }
 
     fn view(&self) -> View<'_> {
-        View {
-            scene: &self.scene,
-            draws: &self.draws,
-            frame: self.set.get(0),
-        }
+        View { scene: &self.scene, draws: &self.draws, frame: self.set.get(0) }
     }
 
     fn bind(&self) {
         let set = self.set.get(0);
         set.buffer(shared::frame::FRAME_CONSTANTS, &self.constants);
-        set.image(
-            shared::frame::FRAME_DEPTH,
-            &self.targets.depth,
-            Use::DepthRead,
-        );
-        set.image(
-            shared::frame::FRAME_CLUSTER_IDS_OUT,
-            &self.targets.cluster_ids,
-            Use::ComputeWrite,
-        );
-        set.image(
-            shared::frame::FRAME_CLUSTER_IDS,
-            &self.targets.cluster_ids,
-            Use::FragmentRead,
-        );
+        set.image(shared::frame::FRAME_DEPTH, &self.targets.depth, Use::DepthRead);
+        set.image(shared::frame::FRAME_CLUSTER_IDS_OUT, &self.targets.cluster_ids, Use::ComputeWrite);
+        set.image(shared::frame::FRAME_CLUSTER_IDS, &self.targets.cluster_ids, Use::FragmentRead);
         set.image(shared::frame::FRAME_HDR, &self.targets.hdr, Use::InputRead);
         self.lists.bind(set);
     }
@@ -288,17 +244,9 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn hdr(&self) -> Result<HdrImage> {
-        let texels: Vec<[f32; 4]> = self
-            .targets
-            .hdr
-            .fetch(Use::TransferRead, Use::TransferRead)?;
+        let texels: Vec<[f32; 4]> = self.targets.hdr.fetch(Use::TransferRead, Use::TransferRead)?;
         let samples = self.samples.max(1) as f32;
-        Ok(self.image(
-            texels
-                .iter()
-                .map(|&[r, g, b, _]| [r / samples, g / samples, b / samples])
-                .collect(),
-        ))
+        Ok(self.image(texels.iter().map(|&[r, g, b, _]| [r / samples, g / samples, b / samples]).collect()))
     }
 
     /// The display-referred picture, sRGB-encoded.
@@ -320,11 +268,8 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn aov(&self, quantity: Quantity) -> Result<Vec<[f32; 4]>> {
-        let inputs = PassInputs {
-            device: &self.device,
-            scene: &self.scene,
-            perspective: self.settings.perspective,
-        };
+        let inputs =
+            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
         let aov = Aov::new(&inputs, &self.targets, quantity)?;
         self.device.run("aov", |cmd| {
             aov.record(cmd, &self.view());
@@ -349,11 +294,7 @@ impl Frame {
     /// What the cluster pass counted for the last sample; zero where the scene has no lights with a range.
     #[must_use]
     pub fn counters(&self) -> Counters {
-        if self.cluster.is_some() {
-            self.counters
-        } else {
-            Counters::default()
-        }
+        if self.cluster.is_some() { self.counters } else { Counters::default() }
     }
 
     /// The cluster pass's results, for tests of the lists.
@@ -370,22 +311,14 @@ impl Frame {
     }
 
     fn image(&self, pixels: Vec<[f32; 3]>) -> HdrImage {
-        HdrImage {
-            width: self.settings.size[0],
-            height: self.settings.size[1],
-            pixels,
-        }
+        HdrImage { width: self.settings.size[0], height: self.settings.size[1], pixels }
     }
 }
 
 fn work(scene: &GpuScene, settings: &FrameSettings) -> Work {
     let lights = &scene.lights;
     let drawn = !scene.draws.is_empty();
-    let first_unranged = if settings.brute_force {
-        0
-    } else {
-        lights.ranged
-    };
+    let first_unranged = if settings.brute_force { 0 } else { lights.ranged };
     Work {
         unranged: drawn && lights.lights.len() > first_unranged,
         first_unranged: first_unranged as u32,
@@ -403,11 +336,7 @@ fn pass_names(work: Work) -> Vec<&'static str> {
         ("indirect", work.clustered),
         ("present", true),
     ];
-    passes
-        .into_iter()
-        .filter(|(_, recorded)| *recorded)
-        .map(|(name, _)| name)
-        .collect()
+    passes.into_iter().filter(|(_, recorded)| *recorded).map(|(name, _)| name).collect()
 }
 
 fn tiles_of(size: [u32; 2]) -> [u32; 2] {

@@ -5,8 +5,8 @@ mod textures;
 use crate::draws::{Draw, is_closed};
 use crate::error::{Error, Result};
 use crate::gpu::{
-    Buffer, BufferUse, Cull, DescriptorSets, Device, Format, Image, ImageDescription,
-    PipelineLayout, Specialization, Use,
+    Buffer, BufferUse, Cull, DescriptorSets, Device, Format, Image, ImageDescription, PipelineLayout,
+    Specialization, Use,
 };
 use crate::light_tree::LightTree;
 use crate::scene::material::PARAMETER_COUNT;
@@ -31,11 +31,7 @@ impl Variant {
     /// Faces to drop.
     #[must_use]
     pub fn cull(&self) -> Cull {
-        if self.both_sides {
-            Cull::None
-        } else {
-            Cull::Back
-        }
+        if self.both_sides { Cull::None } else { Cull::Back }
     }
 }
 
@@ -75,11 +71,7 @@ impl GpuScene {
         reject_unsupported(scene)?;
         let layout = Arc::new(PipelineLayout::new(
             device,
-            &[
-                shared::frame::BINDINGS,
-                shared::scene::BINDINGS,
-                shared::material::BINDINGS,
-            ],
+            &[shared::frame::BINDINGS, shared::scene::BINDINGS, shared::material::BINDINGS],
         )?);
         let (variants, of_mesh) = variants(scene)?;
         let (vertices, triangles, draws) = geometry(scene, &of_mesh);
@@ -89,16 +81,12 @@ impl GpuScene {
         let records: Vec<_> = scene.materials.iter().map(record).collect();
         let records = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
         let set = layout.allocate(shared::scene::SET, 1)?;
-        set.get(0)
-            .image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
-        set.get(0)
-            .image(shared::scene::SCENE_LIGHT_NODES, &nodes, Use::Texture);
+        set.get(0).image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
+        set.get(0).image(shared::scene::SCENE_LIGHT_NODES, &nodes, Use::Texture);
         let textures = Textures::new(device, scene)?;
         let materials = textures.bind(&layout, scene)?;
         for index in 0..scene.materials.len() {
-            materials
-                .get(index)
-                .element(shared::material::MATERIAL_RECORD, &records, index);
+            materials.get(index).element(shared::material::MATERIAL_RECORD, &records, index);
         }
         Ok(Self {
             set,
@@ -120,23 +108,14 @@ impl GpuScene {
 
 fn reject_unsupported(scene: &Scene) -> Result<()> {
     let unsupported = [
-        (
-            !scene.area_lights.is_empty(),
-            "area lights",
-            "remove the area lights, or use `amas reference`",
-        ),
-        (
-            scene.render.vpls > 0,
-            "indirect light",
-            "set indirect.vpls = 0",
-        ),
+        (!scene.area_lights.is_empty(), "area lights", "remove the area lights, or use `amas reference`"),
+        (scene.render.vpls > 0, "indirect light", "set indirect.vpls = 0"),
         (scene.render.shadows, "shadows", "set shadows = false"),
     ];
     match unsupported.into_iter().find(|(used, ..)| *used) {
-        Some((_, what, remedy)) => Err(Error::usage(
-            format!("{what}: not supported yet by the renderer"),
-            remedy,
-        )),
+        Some((_, what, remedy)) => {
+            Err(Error::usage(format!("{what}: not supported yet by the renderer"), remedy))
+        }
         None => Ok(()),
     }
 }
@@ -150,30 +129,17 @@ fn variants(scene: &Scene) -> Result<(Vec<Variant>, Vec<MeshVariants>)> {
         .map(|mesh| {
             let own = of_material[mesh.material as usize].clone();
             let solid = own.both_sides && !own.masked && is_closed(mesh);
-            (
-                own.clone(),
-                solid.then_some(Variant {
-                    both_sides: false,
-                    ..own
-                }),
-            )
+            (own.clone(), solid.then_some(Variant { both_sides: false, ..own }))
         })
         .collect();
-    let mut distinct: Vec<_> = of_mesh
-        .iter()
-        .flat_map(|(own, outside)| [Some(own), outside.as_ref()])
-        .flatten()
-        .cloned()
-        .collect();
+    let mut distinct: Vec<_> =
+        of_mesh.iter().flat_map(|(own, outside)| [Some(own), outside.as_ref()]).flatten().cloned().collect();
     distinct.sort();
     distinct.dedup();
     let index = |variant: &Variant| distinct.binary_search(variant).unwrap_or(0);
     let indices = of_mesh
         .iter()
-        .map(|(own, outside)| MeshVariants {
-            own: index(own),
-            from_outside: outside.as_ref().map(index),
-        })
+        .map(|(own, outside)| MeshVariants { own: index(own), from_outside: outside.as_ref().map(index) })
         .collect();
     Ok((distinct, indices))
 }
@@ -197,10 +163,7 @@ fn variant(material: &Material) -> Result<Variant> {
     let mut specialization = Specialization::default()
         .with(shared::SPEC_MODEL, material.model as u32)
         .with(shared::SPEC_ANISOTROPIC, u32::from(anisotropic))
-        .with(
-            shared::SPEC_SQUARED_ROUGHNESS,
-            u32::from(material.squared_roughness),
-        )
+        .with(shared::SPEC_SQUARED_ROUGHNESS, u32::from(material.squared_roughness))
         .with(shared::SPEC_ROUGH_MATTE, used(Parameter::Sigma))
         .with(shared::SPEC_LOBE_SHEEN, used(Parameter::Sheen))
         .with(shared::SPEC_LOBE_CLEARCOAT, used(Parameter::Clearcoat))
@@ -208,17 +171,9 @@ fn variant(material: &Material) -> Result<Variant> {
         .with(shared::SPEC_LOBE_METALLIC, used(Parameter::Metallic))
         .with(shared::SPEC_TWO_SIDED, u32::from(material.two_sided));
     let slots = slots(material);
-    if slots
-        .iter()
-        .flatten()
-        .any(|&slot| slot >= shared::MATERIAL_TEXTURES)
-    {
+    if slots.iter().flatten().any(|&slot| slot >= shared::MATERIAL_TEXTURES) {
         return Err(Error::usage(
-            format!(
-                "material {:?} uses more than {} textures",
-                material.name,
-                shared::MATERIAL_TEXTURES
-            ),
+            format!("material {:?} uses more than {} textures", material.name, shared::MATERIAL_TEXTURES),
             "give some of its parameters constants",
         ));
     }
@@ -255,12 +210,8 @@ fn record(material: &Material) -> MaterialRecord {
 
 /// All triangles in one buffer, sorted by variant and material, so that pipelines change as rarely as they can.
 fn geometry(scene: &Scene, variants: &[MeshVariants]) -> (Vec<Vertex>, Vec<[u32; 3]>, Vec<Draw>) {
-    let mut order: Vec<_> = scene
-        .meshes
-        .iter()
-        .zip(variants)
-        .filter(|(mesh, _)| !mesh.triangles.is_empty())
-        .collect();
+    let mut order: Vec<_> =
+        scene.meshes.iter().zip(variants).filter(|(mesh, _)| !mesh.triangles.is_empty()).collect();
     order.sort_by_key(|(mesh, variants)| (variants.own, variants.from_outside, mesh.material));
     let mut vertices = Vec::new();
     let mut triangles = Vec::new();
@@ -269,11 +220,7 @@ fn geometry(scene: &Scene, variants: &[MeshVariants]) -> (Vec<Vertex>, Vec<[u32;
         let base = vertices.len() as u32;
         let first = triangles.len() as u32;
         vertices.extend_from_slice(&mesh.vertices);
-        triangles.extend(
-            mesh.triangles
-                .iter()
-                .map(|triangle| triangle.map(|index| index + base)),
-        );
+        triangles.extend(mesh.triangles.iter().map(|triangle| triangle.map(|index| index + base)));
         draws.push(Draw {
             variant: variants.own,
             from_outside: variants.from_outside,
@@ -289,28 +236,22 @@ fn geometry(scene: &Scene, variants: &[MeshVariants]) -> (Vec<Vertex>, Vec<[u32;
 fn bounds(vertices: &[Vertex]) -> Option<[glam::DVec3; 2]> {
     let place = |vertex: &Vertex| glam::Vec3::from(vertex.position).as_dvec3();
     let first = place(vertices.first()?);
-    Some(vertices.iter().fold([first; 2], |[lower, upper], vertex| {
-        [lower.min(place(vertex)), upper.max(place(vertex))]
-    }))
+    Some(
+        vertices
+            .iter()
+            .fold([first; 2], |[lower, upper], vertex| [lower.min(place(vertex)), upper.max(place(vertex))]),
+    )
 }
 
 /// Lights as two RGBA32F texels each, with the null light behind them: the padding of the lists.
 fn light_image(device: &Arc<Device>, lights: &[PointLight]) -> Result<Image> {
-    let null = PointLight {
-        position: glam::Vec3::ZERO,
-        intensity: glam::Vec3::ZERO,
-        range: None,
-    };
+    let null = PointLight { position: glam::Vec3::ZERO, intensity: glam::Vec3::ZERO, range: None };
     let row = shared::LIGHTS_PER_ROW as usize;
     let rows = (lights.len() + 1).div_ceil(row);
     let layer_rows = 1 << shared::LIGHT_ROWS_LOG2;
     let layers = rows.div_ceil(layer_rows);
     let height = if layers > 1 { layer_rows } else { rows };
-    let mut texels: Vec<[f32; 4]> = lights
-        .iter()
-        .chain([&null])
-        .flat_map(light_texels)
-        .collect();
+    let mut texels: Vec<[f32; 4]> = lights.iter().chain([&null]).flat_map(light_texels).collect();
     texels.resize(layers * height * row * 2, [0.0; 4]);
     let image = Image::new(
         device,

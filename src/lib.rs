@@ -22,7 +22,7 @@
 //! | [`gpu`] | thin safe layer over `ash`, the only module with `unsafe` |
 //! | [`light_tree`] | lights in Hilbert order, and the tree over them |
 //! | [`camera_constants`] | from a camera to what the shaders know of it |
-//! | [`draws`] | what of the scene is in view, and from which side |
+//! | [`draws`] | runs of triangles: which a camera can see, and from which side |
 //! | [`gpu_scene`] | the scene on the device |
 //! | [`targets`] | every image the frame renders into |
 //! | [`passes`] | one file a pass |

@@ -40,21 +40,13 @@ impl LightTree {
         let mut unranged = unranged;
         sort_along_curve(&mut unranged);
         ordered.append(&mut unranged);
-        Self {
-            lights: ordered,
-            ranged,
-            nodes,
-        }
+        Self { lights: ordered, ranged, nodes }
     }
 }
 
 fn sort_along_curve(lights: &mut [PointLight]) {
-    let lower = lights
-        .iter()
-        .fold(Vec3::INFINITY, |least, light| least.min(light.position));
-    let upper = lights
-        .iter()
-        .fold(Vec3::NEG_INFINITY, |most, light| most.max(light.position));
+    let lower = lights.iter().fold(Vec3::INFINITY, |least, light| least.min(light.position));
+    let upper = lights.iter().fold(Vec3::NEG_INFINITY, |most, light| most.max(light.position));
     let extent = (upper - lower).max_element().max(f32::MIN_POSITIVE);
     // Stable: equal keys keep file order, so the result does not depend on the number of threads.
     lights.par_sort_by_cached_key(|light| hilbert_key((light.position - lower) / extent));
@@ -89,10 +81,7 @@ fn hilbert_key(p: Vec3) -> u32 {
         q >>= 1;
     }
     let axes = axes.map(|axis| axis ^ t);
-    (0..BITS).rev().fold(0, |key, bit| {
-        axes.iter()
-            .fold(key, |key, axis| key << 1 | (axis >> bit & 1))
-    })
+    (0..BITS).rev().fold(0, |key, bit| axes.iter().fold(key, |key, axis| key << 1 | (axis >> bit & 1)))
 }
 
 fn build(lights: &[PointLight]) -> Vec<LightNode> {
@@ -112,17 +101,8 @@ fn emit(lights: &[PointLight], first: usize, span: usize, nodes: &mut Vec<LightN
     let (lower, upper) = bounds(lights);
     let index = nodes.len();
     let leaf = span == LEAF;
-    let packed = if leaf {
-        (first << LEAF_COUNT_BITS | lights.len()) as u32
-    } else {
-        0
-    };
-    nodes.push(LightNode {
-        lower: lower.to_array(),
-        skip: 0,
-        upper: upper.to_array(),
-        lights: packed,
-    });
+    let packed = if leaf { (first << LEAF_COUNT_BITS | lights.len()) as u32 } else { 0 };
+    nodes.push(LightNode { lower: lower.to_array(), skip: 0, upper: upper.to_array(), lights: packed });
     if !leaf {
         let child = span / FAN;
         for (i, part) in lights.chunks(child).enumerate() {
@@ -133,18 +113,11 @@ fn emit(lights: &[PointLight], first: usize, span: usize, nodes: &mut Vec<LightN
 }
 
 fn bounds(lights: &[PointLight]) -> (Vec3, Vec3) {
-    lights.iter().fold(
-        (Vec3::INFINITY, Vec3::NEG_INFINITY),
-        |(lower, upper), light| {
-            // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
-            let reach = light.range.unwrap_or(f32::MAX) * 1.0001
-                + 1e-6 * light.position.abs().max_element();
-            (
-                lower.min(light.position - reach),
-                upper.max(light.position + reach),
-            )
-        },
-    )
+    lights.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), light| {
+        // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
+        let reach = light.range.unwrap_or(f32::MAX) * 1.0001 + 1e-6 * light.position.abs().max_element();
+        (lower.min(light.position - reach), upper.max(light.position + reach))
+    })
 }
 
 #[cfg(test)]

@@ -1,9 +1,7 @@
 //! Calls a function of the shaders' library for rows of inputs: how tests reach the GLSL that ships.
 
 use crate::error::Result;
-use crate::gpu::{
-    Buffer, BufferUse, ComputePipeline, Device, PipelineLayout, Shader, Specialization, Use,
-};
+use crate::gpu::{Buffer, BufferUse, ComputePipeline, Device, PipelineLayout, Shader, Specialization, Use};
 use crate::shared::{self, LINEAR_GROUP};
 use bytemuck::Pod;
 use std::sync::Arc;

@@ -31,38 +31,19 @@ impl Targets {
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, size: [u32; 2]) -> Result<Self> {
         let image = |name, format, uses: &[Use]| {
-            Image::new(
-                device,
-                &ImageDescription {
-                    name,
-                    format,
-                    size,
-                    layers: None,
-                    mips: 1,
-                    uses,
-                },
-            )
+            Image::new(device, &ImageDescription { name, format, size, layers: None, mips: 1, uses })
         };
         let cluster_ids = image(
             "cluster ids",
             Format::R32_UINT,
-            &[
-                Use::TransferWrite,
-                Use::TransferRead,
-                Use::ComputeWrite,
-                Use::FragmentRead,
-            ],
+            &[Use::TransferWrite, Use::TransferRead, Use::ComputeWrite, Use::FragmentRead],
         )?;
         // No clusters until the cluster pass has run, which it never does for a scene without lights in lists.
         let nothing = vec![NO_CLUSTER; size[0] as usize * size[1] as usize];
         cluster_ids.upload(&[&nothing], Use::FragmentRead)?;
         Ok(Self {
             depth: image("depth", DEPTH_FORMAT, &[Use::DepthWrite, Use::DepthRead])?,
-            hdr: image(
-                "hdr",
-                HDR_FORMAT,
-                &[Use::ColorWrite, Use::InputRead, Use::TransferRead],
-            )?,
+            hdr: image("hdr", HDR_FORMAT, &[Use::ColorWrite, Use::InputRead, Use::TransferRead])?,
             ldr: image("ldr", LDR_FORMAT, &[Use::ColorWrite, Use::TransferRead])?,
             cluster_ids,
         })

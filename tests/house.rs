@@ -16,9 +16,7 @@ fn map() -> Vec<&'static str> {
     let (_, house) = README.split_once("## The house").unwrap();
     let block = house.split("```").nth(1).unwrap();
     let lines = block.lines().skip(1);
-    lines
-        .filter_map(|line| line.split_whitespace().next())
-        .collect()
+    lines.filter_map(|line| line.split_whitespace().next()).collect()
 }
 
 /// Modules of `src/` in the order of the map.
@@ -33,9 +31,7 @@ fn modules() -> Vec<&'static str> {
 fn sources(path: &Path) -> Vec<PathBuf> {
     if path.is_dir() {
         let entries = path.read_dir().unwrap();
-        return entries
-            .flat_map(|entry| sources(&entry.unwrap().path()))
-            .collect();
+        return entries.flat_map(|entry| sources(&entry.unwrap().path())).collect();
     }
     let rust = path.extension().is_some_and(|extension| extension == "rs");
     rust.then(|| path.to_owned()).into_iter().collect()
@@ -55,32 +51,23 @@ fn the_map_names_what_exists() {
         }
     }
     let (_, tests) = README.split_once("| test |").unwrap();
-    let rows = tests
-        .lines()
-        .skip(2)
-        .take_while(|line| line.starts_with('|'));
+    let rows = tests.lines().skip(2).take_while(|line| line.starts_with('|'));
     for name in rows.flat_map(|row| row.split('|').nth(1).unwrap().split(',')) {
         let name = name.trim().trim_matches('`');
         let places = [format!("tests/{name}.rs"), format!("tests/{name}/main.rs")];
-        assert!(
-            places.iter().any(|place| root().join(place).exists()),
-            "{name}"
-        );
+        assert!(places.iter().any(|place| root().join(place).exists()), "{name}");
     }
 }
 
 #[test]
 fn every_module_is_on_the_map() {
     let lib = fs::read_to_string(root().join("src/lib.rs")).unwrap();
-    let mut declared: Vec<_> = lib
-        .lines()
-        .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'))
-        .collect();
+    let mut declared: Vec<_> =
+        lib.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect();
     let mut mapped = modules();
     let rows = lib.lines().filter_map(|line| line.strip_prefix("//! | [`"));
-    let documented: Vec<_> = rows
-        .map(|row| row.split('`').next().unwrap().trim_start_matches("mod@"))
-        .collect();
+    let documented: Vec<_> =
+        rows.map(|row| row.split('`').next().unwrap().trim_start_matches("mod@")).collect();
     assert_eq!(documented, mapped, "the README's order and the crate's");
     declared.sort_unstable();
     mapped.sort_unstable();
@@ -92,14 +79,10 @@ fn imports_point_up() {
     let order = modules();
     for (rank, module) in order.iter().enumerate() {
         let place = |suffix: &str| root().join(format!("src/{module}{suffix}"));
-        let files = [place(".rs"), place("")]
-            .into_iter()
-            .filter(|path| path.exists());
+        let files = [place(".rs"), place("")].into_iter().filter(|path| path.exists());
         for file in files.flat_map(|path| sources(&path)) {
             let text = fs::read_to_string(&file).unwrap();
-            let code = text
-                .lines()
-                .filter(|line| !line.trim_start().starts_with("//"));
+            let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
             for used in code.flat_map(|line| line.split("crate::").skip(1)) {
                 let end = used.find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
                 let used = &used[..end.unwrap_or(used.len())];

@@ -12,61 +12,34 @@ use glam::{DVec3, Vec3, vec3};
 fn plane() -> Surface {
     Surface {
         position: DVec3::ZERO,
-        frame: Frame {
-            tangent: DVec3::X,
-            bitangent: DVec3::Y,
-            normal: DVec3::Z,
-        },
+        frame: Frame { tangent: DVec3::X, bitangent: DVec3::Y, normal: DVec3::Z },
         wo: DVec3::Z,
-        bsdf: Bsdf::Matte(Matte {
-            color: DVec3::ONE,
-            sigma: 0.0,
-        }),
+        bsdf: Bsdf::Matte(Matte { color: DVec3::ONE, sigma: 0.0 }),
     }
 }
 
 fn light(shape: AreaShape) -> AreaLight {
-    AreaLight {
-        shape,
-        radiance: Vec3::ONE,
-        two_sided: false,
-        visible: false,
-        texture: None,
-    }
+    AreaLight { shape, radiance: Vec3::ONE, two_sided: false, visible: false, texture: None }
 }
 
 /// Facing down.
 fn rect(center: [f32; 3], half: [f32; 2]) -> AreaShape {
-    AreaShape::Rect {
-        center: center.into(),
-        u: Vec3::X * half[0],
-        v: Vec3::NEG_Y * half[1],
-    }
+    AreaShape::Rect { center: center.into(), u: Vec3::X * half[0], v: Vec3::NEG_Y * half[1] }
 }
 
 fn disk(offset: f32, height: f32, radius: f32) -> AreaShape {
     let center = vec3(offset, 0.0, height);
-    AreaShape::Disk {
-        center,
-        u: Vec3::X * radius,
-        v: Vec3::NEG_Y * radius,
-    }
+    AreaShape::Disk { center, u: Vec3::X * radius, v: Vec3::NEG_Y * radius }
 }
 
 fn polygon(vertices: Vec<Vec3>, holes: Vec<Vec<Vec3>>) -> AreaShape {
-    AreaShape::Polygon {
-        vertices,
-        holes,
-        uvs: None,
-    }
+    AreaShape::Polygon { vertices, holes, uvs: None }
 }
 
 /// A regular outline at height 1, facing down.
 fn ring(n: u32, radius: f32) -> Vec<Vec3> {
     let angle = |i: u32| -std::f32::consts::TAU * i as f32 / n as f32;
-    (0..n)
-        .map(|i| vec3(radius * angle(i).cos(), radius * angle(i).sin(), 1.0))
-        .collect()
+    (0..n).map(|i| vec3(radius * angle(i).cos(), radius * angle(i).sin(), 1.0)).collect()
 }
 
 fn estimate(light: &AreaLight, textures: &[Texture]) -> Estimate {
@@ -80,49 +53,22 @@ fn expect(what: &str, light: &AreaLight, want: f64) {
     println!("{what}: {value:.9} ± {error:.1e}, want {want:.9}");
     assert!(error <= 5e-4 * want, "{what}: {error:e}");
     let off = (value - want).abs();
-    assert!(
-        off <= 5.0 * error + 1e-6 * want,
-        "{what}: {value} ± {error:e}, want {want}"
-    );
+    assert!(off <= 5.0 * error + 1e-6 * want, "{what}: {value} ± {error:e}, want {want}");
 }
 
 #[test]
 fn rectangles() {
-    expect(
-        "T1 corner above",
-        &light(rect([0.5, 0.5, 1.0], [0.5, 0.5])),
-        0.138_531_606,
-    );
-    expect(
-        "T2 h = 1",
-        &light(rect([0.0, 0.0, 1.0], [1.0, 1.0])),
-        0.554_126_424,
-    );
-    expect(
-        "T2 h = 0.1",
-        &light(rect([0.0, 0.0, 0.1], [1.0, 1.0])),
-        0.991_885_633,
-    );
-    expect(
-        "T3 4 by 1",
-        &light(rect([0.0, 0.0, 2.0], [2.0, 0.5])),
-        0.197_691_759,
-    );
-    expect(
-        "T3 1 by 1",
-        &light(rect([0.0, 0.0, 1.0], [0.5, 0.5])),
-        0.239_456_470,
-    );
+    expect("T1 corner above", &light(rect([0.5, 0.5, 1.0], [0.5, 0.5])), 0.138_531_606);
+    expect("T2 h = 1", &light(rect([0.0, 0.0, 1.0], [1.0, 1.0])), 0.554_126_424);
+    expect("T2 h = 0.1", &light(rect([0.0, 0.0, 0.1], [1.0, 1.0])), 0.991_885_633);
+    expect("T3 4 by 1", &light(rect([0.0, 0.0, 2.0], [2.0, 0.5])), 0.197_691_759);
+    expect("T3 1 by 1", &light(rect([0.0, 0.0, 1.0], [0.5, 0.5])), 0.239_456_470);
 }
 
 #[test]
 fn wall_that_stands_on_the_plane() {
     for (d, want) in [(1.0, 0.111_468_394), (1e-3, 0.499_431_690)] {
-        let shape = AreaShape::Rect {
-            center: vec3(d, 0.0, 0.5),
-            u: Vec3::NEG_Y,
-            v: Vec3::Z * 0.5,
-        };
+        let shape = AreaShape::Rect { center: vec3(d, 0.0, 0.5), u: Vec3::NEG_Y, v: Vec3::Z * 0.5 };
         expect("T4", &light(shape), want);
     }
 }
@@ -143,17 +89,9 @@ fn polygons() {
     };
     let mut hole = square(0.5);
     let want = 0.554_126_424 - 0.239_456_470;
-    expect(
-        "T18 hole",
-        &light(polygon(square(1.0), vec![hole.clone()])),
-        want,
-    );
+    expect("T18 hole", &light(polygon(square(1.0), vec![hole.clone()])), want);
     hole.reverse();
-    expect(
-        "T18 reversed hole",
-        &light(polygon(square(1.0), vec![hole])),
-        want,
-    );
+    expect("T18 reversed hole", &light(polygon(square(1.0), vec![hole])), want);
 }
 
 #[test]
@@ -167,92 +105,44 @@ fn disks_and_ellipses() {
 
 #[test]
 fn line_is_a_thin_cylinder() {
-    let line = |radius| AreaShape::Line {
-        a: vec3(-1.0, 0.0, 1.0),
-        b: vec3(1.0, 0.0, 1.0),
-        radius,
-    };
+    let line = |radius| AreaShape::Line { a: vec3(-1.0, 0.0, 1.0), b: vec3(1.0, 0.0, 1.0), radius };
     // The closed form (T9) is the limit of no radius; a cylinder's nearer and receding sides differ in order r².
     let thin = 0.008_183_099 / 0.01;
     let got = estimate(&light(line(1e-4)), &[]);
     let off = (got.value.x / (1e-4 * thin) - 1.0).abs();
-    assert!(
-        off < 1e-5 + 5.0 * got.standard_error.x / got.value.x,
-        "{got:?}"
-    );
+    assert!(off < 1e-5 + 5.0 * got.standard_error.x / got.value.x, "{got:?}");
     let got = estimate(&light(line(0.01)), &[]);
     assert!((got.value.x / (0.01 * thin) - 1.0).abs() < 5e-3, "{got:?}");
 }
 
 #[test]
 fn sides() {
-    let up = AreaShape::Rect {
-        center: vec3(0.0, 0.0, 1.0),
-        u: Vec3::X,
-        v: Vec3::Y,
-    };
-    assert_eq!(
-        estimate(&light(up.clone()), &[]).value,
-        DVec3::ZERO,
-        "T14: its back is dark"
-    );
-    expect(
-        "T14",
-        &AreaLight {
-            two_sided: true,
-            ..light(up)
-        },
-        0.554_126_424,
-    );
+    let up = AreaShape::Rect { center: vec3(0.0, 0.0, 1.0), u: Vec3::X, v: Vec3::Y };
+    assert_eq!(estimate(&light(up.clone()), &[]).value, DVec3::ZERO, "T14: its back is dark");
+    expect("T14", &AreaLight { two_sided: true, ..light(up) }, 0.554_126_424);
     let below = light(rect([0.0, 0.0, -1.0], [1.0, 1.0]));
     assert_eq!(estimate(&below, &[]).value, DVec3::ZERO, "T13");
-    let edge_on = AreaShape::Rect {
-        center: vec3(0.0, 0.0, 1.0),
-        u: Vec3::X * 0.0,
-        v: Vec3::Z,
-    };
-    assert!(
-        estimate(&light(edge_on), &[]).value.is_finite(),
-        "no area is no light"
-    );
+    let edge_on = AreaShape::Rect { center: vec3(0.0, 0.0, 1.0), u: Vec3::X * 0.0, v: Vec3::Z };
+    assert!(estimate(&light(edge_on), &[]).value.is_finite(), "no area is no light");
 }
 
 #[test]
 fn parts_sum_to_the_whole() {
     let whole = estimate(&light(rect([0.5, 0.0, 1.0], [1.0, 1.0])), &[]);
-    let parts: Vec<_> = [0.0, 1.0]
-        .map(|x| light(rect([x, 0.0, 1.0], [0.5, 1.0])))
-        .into_iter()
-        .collect();
+    let parts: Vec<_> = [0.0, 1.0].map(|x| light(rect([x, 0.0, 1.0], [0.5, 1.0]))).into_iter().collect();
     let emitters: Vec<_> = parts.iter().map(|part| Emitter::new(part, &[])).collect();
     let sum = reflected(&plane(), &emitters, 2e-5, 1);
     let error = whole.standard_error.x + sum.standard_error.x;
-    assert!(
-        (whole.value.x - sum.value.x).abs() < 5.0 * error + 1e-9,
-        "{whole:?} {sum:?}"
-    );
+    assert!((whole.value.x - sum.value.x).abs() < 5.0 * error + 1e-9, "{whole:?} {sum:?}");
 }
 
 #[test]
 fn texture_lies_as_the_contract_says() {
     // Two texels, left dark and right bright, top row only: u runs with +x.
     let texels = Texels::Float(vec![[0.0; 4], [1.0; 4]]);
-    let texture = Texture {
-        name: "halves".into(),
-        width: 2,
-        height: 1,
-        texels,
-    };
-    let left = AreaShape::Rect {
-        center: vec3(0.0, 0.0, 1.0),
-        u: Vec3::X,
-        v: Vec3::NEG_Y,
-    };
-    let textured = AreaLight {
-        texture: Some(0),
-        visible: true,
-        ..light(left)
-    };
+    let texture = Texture { name: "halves".into(), width: 2, height: 1, texels };
+    let left = AreaShape::Rect { center: vec3(0.0, 0.0, 1.0), u: Vec3::X, v: Vec3::NEG_Y };
+    let textured = AreaLight { texture: Some(0), visible: true, ..light(left) };
     let textures = [texture];
     let emitter = Emitter::new(&textured, &textures);
     let at = |x: f64| {

@@ -20,11 +20,7 @@ fn every_row_of_the_tables() {
             for (got, want) in got.to_array().into_iter().zip(want.to_array()) {
                 let error = (got - want).abs();
                 worst = worst.max((error - 1e-12).max(0.0) / want.abs().max(1e-300));
-                assert!(
-                    error <= 1e-6 * want.abs() + 1e-12,
-                    "{}: got {got:e}, want {want:e}",
-                    row.place()
-                );
+                assert!(error <= 1e-6 * want.abs() + 1e-12, "{}: got {got:e}, want {want:e}", row.place());
             }
         }
         println!("{}: worst relative error {worst:.1e}", table.name);
@@ -52,14 +48,12 @@ fn reciprocity() {
 #[test]
 fn albedos_of_the_tables() {
     for (model, ..) in MODELS {
-        figures(model, &albedos(model))
-            .par_iter()
-            .for_each(|figure| {
-                // Off by at most 3.7e-4, against 2^17 points.
-                let got = albedo(&figure.bsdf, figure.wo, 1 << 14);
-                let error = (got - figure.want).abs().max_element();
-                assert!(error <= 1e-3, "{figure}: got {got}");
-            });
+        figures(model, &albedos(model)).par_iter().for_each(|figure| {
+            // Off by at most 3.7e-4, against 2^17 points.
+            let got = albedo(&figure.bsdf, figure.wo, 1 << 14);
+            let error = (got - figure.want).abs().max_element();
+            assert!(error <= 1e-3, "{figure}: got {got}");
+        });
     }
 }
 
@@ -73,10 +67,7 @@ fn furnace_of_the_roughest_metal_has_a_closed_form() {
 #[test]
 fn sampling_density_integrates_to_the_share_above_the_surface() {
     // Directions that are sampled below the surface are lost: what is left is the density's integral above it.
-    let bsdf = Bsdf::Principled(Principled {
-        clearcoat: 1.0,
-        ..white_principled(0.5, 0.0)
-    });
+    let bsdf = Bsdf::Principled(Principled { clearcoat: 1.0, ..white_principled(0.5, 0.0) });
     let (n, wo) = (1 << 18, at_cosine(0.6, 30.0));
     let uniform = |i| {
         let xi = r2(i);
@@ -85,8 +76,5 @@ fn sampling_density_integrates_to_the_share_above_the_surface() {
     let integral = (0..n).map(uniform).sum::<f64>() / f64::from(n);
     let above = (0..n).filter(|&i| bsdf.sample(wo, r2(i)).z > 0.0);
     let share = above.count() as f64 / f64::from(n);
-    assert!(
-        (integral - share).abs() < 1e-3,
-        "{integral} against {share}"
-    );
+    assert!((integral - share).abs() < 1e-3, "{integral} against {share}");
 }

@@ -19,10 +19,7 @@ fn perspective_rays_follow_the_contract() {
         let up = tangent * (1.0 - 2.0 * (y + 0.5) / h);
         let want = DVec3::new(right, up, -1.0);
         assert!(got.ray.direction.abs_diff_eq(want.normalize(), 1e-15));
-        assert!(
-            (got.t_min - 0.05 * want.length()).abs() < 1e-15,
-            "near is along the view"
-        );
+        assert!((got.t_min - 0.05 * want.length()).abs() < 1e-15, "near is along the view");
     }
 }
 
@@ -38,26 +35,12 @@ fn orthographic_rays_follow_the_contract() {
 fn facing() {
     let mut scene = scene();
     let from_front = center(&scene);
-    scene.meshes[0]
-        .triangles
-        .iter_mut()
-        .for_each(|t| t.reverse());
-    assert_eq!(
-        center(&scene),
-        from_front,
-        "the normal turns to the viewer whatever the winding"
-    );
+    scene.meshes[0].triangles.iter_mut().for_each(|t| t.reverse());
+    assert_eq!(center(&scene), from_front, "the normal turns to the viewer whatever the winding");
     scene.materials[0].two_sided = false;
     scene.render.background = [7.0; 3];
-    assert_eq!(
-        center(&scene),
-        [7.0; 3],
-        "a one-sided back face is not drawn"
-    );
-    scene.meshes[0]
-        .triangles
-        .iter_mut()
-        .for_each(|t| t.reverse());
+    assert_eq!(center(&scene), [7.0; 3], "a one-sided back face is not drawn");
+    scene.meshes[0].triangles.iter_mut().for_each(|t| t.reverse());
     assert_eq!(center(&scene), from_front);
 }
 
@@ -78,21 +61,10 @@ fn alpha_mask_cuts() {
     scene.render.background = [7.0; 3];
     // The upper row is opaque, the lower one is cut: v runs upwards, row 0 is on top.
     let texels = Texels::Linear8(vec![[255; 4], [0; 4]]);
-    scene.textures = vec![Texture {
-        name: "mask".into(),
-        width: 1,
-        height: 2,
-        texels,
-    }];
+    scene.textures = vec![Texture { name: "mask".into(), width: 1, height: 2, texels }];
     scene.materials[0].parameters[Parameter::Mask as usize].texture = Some(0);
-    let image = render(&scene, &scene.cameras[0], &options([1, 8]))
-        .unwrap()
-        .image;
-    let cut: Vec<_> = image
-        .pixels
-        .iter()
-        .map(|pixel| *pixel == [7.0; 3])
-        .collect();
+    let image = render(&scene, &scene.cameras[0], &options([1, 8])).unwrap().image;
+    let cut: Vec<_> = image.pixels.iter().map(|pixel| *pixel == [7.0; 3]).collect();
     assert_eq!(cut, [false, false, false, false, true, true, true, true]);
 }
 
@@ -104,9 +76,7 @@ fn no_ray_slips_through_an_edge() {
     // The diagonal is the triangles' common edge, and the picture is square, so every ray of it meets that edge.
     let all = (0..=64_u32).all(|i| {
         let at = f64::from(i);
-        geometry
-            .closest(&camera_ray(camera, [64, 64], at, 64.0 - at))
-            .is_some()
+        geometry.closest(&camera_ray(camera, [64, 64], at, 64.0 - at)).is_some()
     });
     assert!(all);
 }

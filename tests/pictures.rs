@@ -6,11 +6,7 @@ use amas::image::{save_png8, write_atomically};
 use amas::{Error, HdrImage};
 
 fn image(width: u32, pixels: &[[f32; 3]]) -> HdrImage {
-    HdrImage {
-        width,
-        height: pixels.len() as u32 / width,
-        pixels: pixels.to_vec(),
-    }
+    HdrImage { width, height: pixels.len() as u32 / width, pixels: pixels.to_vec() }
 }
 
 fn grey(width: u32, values: &[f32]) -> HdrImage {
@@ -22,20 +18,13 @@ fn figures(a: &HdrImage, b: &HdrImage, options: &Options) -> Figures {
 }
 
 fn close(got: f64, want: f64) {
-    assert!(
-        (got - want).abs() <= 1e-7 * want.abs().max(1e-3),
-        "{got} against {want}"
-    );
+    assert!((got - want).abs() <= 1e-7 * want.abs().max(1e-3), "{got} against {want}");
 }
 
 #[test]
 fn float_files_give_back_every_bit() {
     let folder = tempfile::tempdir().unwrap();
-    let odd = [
-        [0.0, -1.5, 1e-38],
-        [f32::MAX, 1e-45, 65_504.0],
-        [f32::INFINITY, 0.1, 3.0],
-    ];
+    let odd = [[0.0, -1.5, 1e-38], [f32::MAX, 1e-45, 65_504.0], [f32::INFINITY, 0.1, 3.0]];
     let picture = image(3, &odd);
     for name in ["a.exr", "a.pfm", "A.EXR"] {
         let path = folder.path().join(name);
@@ -64,12 +53,7 @@ fn png_is_decoded_to_linear() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.png");
     save_png8(&path, 3, 1, &[[0; 3], [188; 3], [255; 3]]).unwrap();
-    let values: Vec<_> = HdrImage::load(&path)
-        .unwrap()
-        .pixels
-        .iter()
-        .map(|p| p[0])
-        .collect();
+    let values: Vec<_> = HdrImage::load(&path).unwrap().pixels.iter().map(|p| p[0]).collect();
     assert_eq!((values[0], values[2]), (0.0, 1.0));
     assert!((values[1] - 0.502_886_5).abs() < 1e-6, "{}", values[1]);
 }
@@ -80,9 +64,7 @@ fn damaged_and_missing_files_are_named() {
     for name in ["a.exr", "a.pfm", "a.png", "a.hdr"] {
         let path = folder.path().join(name);
         for content in [None, Some(&b"PF\n99999999 99999999\n-1\nxx"[..]), Some(b"")] {
-            content
-                .into_iter()
-                .for_each(|content| std::fs::write(&path, content).unwrap());
+            content.into_iter().for_each(|content| std::fs::write(&path, content).unwrap());
             let error = HdrImage::load(&path).unwrap_err();
             assert!(matches!(error, Error::Input { .. }), "{error}");
             assert!(error.to_string().contains(name), "{error}");
@@ -109,10 +91,7 @@ fn failed_writing_leaves_nothing_new_and_everything_old() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     let nowhere = folder.path().join("none/a.exr");
-    assert!(matches!(
-        grey(1, &[1.0]).save(nowhere),
-        Err(Error::Write { .. })
-    ));
+    assert!(matches!(grey(1, &[1.0]).save(nowhere), Err(Error::Write { .. })));
 }
 
 #[test]
@@ -128,10 +107,7 @@ fn figures_by_hand() {
     close(got.p99, e / 0.02);
     close(got.max, e / 0.02);
     close(got.rmse, ((d * d + 4.0 + e * e) / 4.0).sqrt());
-    close(
-        got.rel_mse,
-        (d * d / 1.04 + 4.0 / 16.04 + e * e / 0.04) / 4.0,
-    );
+    close(got.rel_mse, (d * d / 1.04 + 4.0 / 16.04 + e * e / 0.04) / 4.0);
     close(got.mean_bias, (d - 2.0 + e) / 8.0);
     close(got.beyond_one_percent, 0.75);
     assert_eq!((got.largest_a, got.largest_b, got.compared), (3.0, 4.0, 4));
@@ -143,16 +119,8 @@ fn blocks_average_what_the_mask_keeps() {
     let b = grey(3, &[1.0, 1.0, 2.0, 1.0, 1.0, 9.0]);
     let a = grey(3, &[1.2, 0.8, 2.2, 1.0, 1.0, 0.0]);
     let keep = vec![true, true, true, true, true, false];
-    let mask = Mask {
-        width: 3,
-        height: 2,
-        keep,
-    };
-    let options = Options {
-        mask: Some(&mask),
-        block: 2,
-        ..Options::default()
-    };
+    let mask = Mask { width: 3, height: 2, keep };
+    let options = Options { mask: Some(&mask), block: 2, ..Options::default() };
     let got = figures(&a, &b, &options);
     assert_eq!(got.compared, 2);
     assert!((got.max - 0.1).abs() < 1e-6 && got.p50 < 1e-6, "{got:?}");
@@ -164,34 +132,16 @@ fn non_finite_pixels_are_counted_and_left_out() {
     let b = grey(1, &[1.0, 1.0, 1.0]);
     let a = grey(1, &[1.0, f32::NAN, f32::INFINITY]);
     let got = figures(&a, &b, &Options::default());
-    assert_eq!(
-        (got.non_finite, got.compared, got.max, got.flip),
-        (2, 1, 0.0, 0.0)
-    );
+    assert_eq!((got.non_finite, got.compared, got.max, got.flip), (2, 1, 0.0, 0.0));
 }
 
 #[test]
 fn sizes_must_agree() {
     let error = compare(&grey(1, &[1.0]), &grey(2, &[1.0; 2]), &Options::default()).unwrap_err();
-    assert!(
-        error.to_string().contains("1x1") && error.to_string().contains("2x1"),
-        "{error}"
-    );
-    let mask = Mask {
-        width: 1,
-        height: 1,
-        keep: vec![false],
-    };
-    let options = Options {
-        mask: Some(&mask),
-        ..Options::default()
-    };
-    assert_eq!(
-        compare(&grey(1, &[1.0]), &grey(1, &[1.0]), &options)
-            .unwrap_err()
-            .exit_code(),
-        2
-    );
+    assert!(error.to_string().contains("1x1") && error.to_string().contains("2x1"), "{error}");
+    let mask = Mask { width: 1, height: 1, keep: vec![false] };
+    let options = Options { mask: Some(&mask), ..Options::default() };
+    assert_eq!(compare(&grey(1, &[1.0]), &grey(1, &[1.0]), &options).unwrap_err().exit_code(), 2);
 }
 
 #[test]
@@ -219,19 +169,9 @@ fn flip_agrees_with_the_published_implementation() {
     assert_eq!(mean(&white, &white), 0.0);
     assert!((mean(&black, &white) - 0.967_37).abs() < 5e-5);
     let (a, b) = (stripes(0), stripes(2));
-    assert!(
-        (mean(&a, &b) - FLIP_OF_STRIPES).abs() < 5e-6,
-        "{}",
-        mean(&a, &b)
-    );
+    assert!((mean(&a, &b) - FLIP_OF_STRIPES).abs() < 5e-6, "{}", mean(&a, &b));
     // Independent of the exposure of scene-linear pictures.
-    let brighter = |image: &HdrImage| {
-        image
-            .pixels
-            .iter()
-            .map(|p| p.map(|v| v * 64.0))
-            .collect::<Vec<_>>()
-    };
+    let brighter = |image: &HdrImage| image.pixels.iter().map(|p| p.map(|v| v * 64.0)).collect::<Vec<_>>();
     let (flip, scaled) = (flip::map(&a, &b, false), {
         flip::map(&image(96, &brighter(&a)), &image(96, &brighter(&b)), false)
     });

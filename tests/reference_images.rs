@@ -12,33 +12,21 @@ use amas::{HdrImage, scene};
 /// `seen_from_behind`: pixels where Mitsuba's is exactly black although something is there. Its surfaces are one-sided,
 /// ours turn to the viewer, so the inside of the vase differs by rule; these pixels are left out.
 fn figures(name: &str, tolerance: f64, block: u32, seen_from_behind: bool) -> Option<Figures> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../shared/reference")
-        .join(name);
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/reference").join(name);
     if !folder.is_dir() {
         println!("{} is not there: nothing is compared", folder.display());
         return None;
     }
     let scene = scene::load(&folder.join("scene.toml"), &[]).unwrap();
-    let options = Options {
-        tolerance,
-        ..Options::of_scene(&scene)
-    };
+    let options = Options { tolerance, ..Options::of_scene(&scene) };
     let got = render(&scene, &scene.cameras[0], &options).unwrap().image;
     let want = HdrImage::load(folder.join("reference.exr")).unwrap();
     let mut mask = Mask::load(folder.join("mask.png")).unwrap();
     if seen_from_behind {
         let black = want.pixels.iter().map(|pixel| *pixel == [0.0; 3]);
-        mask.keep
-            .iter_mut()
-            .zip(black)
-            .for_each(|(keep, black)| *keep &= !black);
+        mask.keep.iter_mut().zip(black).for_each(|(keep, black)| *keep &= !black);
     }
-    let options = Compare {
-        mask: Some(&mask),
-        block,
-        ..Compare::default()
-    };
+    let options = Compare { mask: Some(&mask), block, ..Compare::default() };
     let figures = compare(&got, &want, &options).unwrap();
     println!("{name}: {figures:#?}");
     Some(figures)

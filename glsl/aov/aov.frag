@@ -15,16 +15,16 @@ layout(constant_id = 11) const uint AOV = AOV_POSITION;
 layout(location = 0) out vec4 value;
 
 void main() {
-  if (AOV == AOV_POSITION) {
-    value = vec4(in_position, 1.0);
-  } else if (AOV == AOV_NORMAL) {
-    value = vec4(shading_frame(view_direction())[2], 1.0);
-  } else if (AOV == AOV_MATERIAL) {
-    value = vec4(vec3(float(draw.material)), 1.0);
-  } else if (AOV == AOV_LIGHT_COUNT) {
-    uint unranged = frame.light_count - frame.direct_begin;
-    value = vec4(vec3(float(list_at(ivec2(gl_FragCoord.xy)).count + unranged)), 1.0);
-  } else {
-    value = vec4(1.0);
-  }
+    if (AOV == AOV_POSITION) {
+        value = vec4(in_position, 1.0);
+    } else if (AOV == AOV_NORMAL) {
+        value = vec4(shading_frame(view_direction())[2], 1.0);
+    } else if (AOV == AOV_MATERIAL) {
+        value = vec4(vec3(float(draw.material)), 1.0);
+    } else if (AOV == AOV_LIGHT_COUNT) {
+        uint unranged = frame.light_count - frame.direct_begin;
+        value = vec4(vec3(float(list_at(ivec2(gl_FragCoord.xy)).count + unranged)), 1.0);
+    } else {
+        value = vec4(1.0);
+    }
 }

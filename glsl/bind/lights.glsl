@@ -6,9 +6,10 @@
 layout(set = SET_scene, binding = SCENE_LIGHTS) uniform texture2DArray scene_lights;
 
 ivec3 light_texel(uint index) {
-  return ivec3(
-      int((index & (LIGHTS_PER_ROW - 1u)) << 1), int((index >> LIGHTS_PER_ROW_LOG2) & ((1u << LIGHT_ROWS_LOG2) - 1u)),
-      int(index >> (LIGHTS_PER_ROW_LOG2 + LIGHT_ROWS_LOG2)));
+    return ivec3(
+            int((index & (LIGHTS_PER_ROW - 1u)) << 1),
+            int((index >> LIGHTS_PER_ROW_LOG2) & ((1u << LIGHT_ROWS_LOG2) - 1u)),
+            int(index >> (LIGHTS_PER_ROW_LOG2 + LIGHT_ROWS_LOG2)));
 }
 
 // xyz position, w 1/range² (0 without a range).

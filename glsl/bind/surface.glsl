@@ -28,101 +28,101 @@ layout(location = 3) in vec2 in_uv;
 const vec3 MAX_RADIANCE = vec3(1e30);
 
 struct Surface {
-  vec3 position;  // world
-  mat3 world_from_local;  // columns: tangent, bitangent, normal
-  Bsdf bsdf;
+    vec3 position;  // world
+    mat3 world_from_local;  // columns: tangent, bitangent, normal
+    Bsdf bsdf;
 };
 
 vec3 parameter(uint row, uint slot) {
-  if (slot != NO_TEXTURE) return sample_slot(slot, in_uv).rgb;
-  return material.rows[row].xyz;
+    if (slot != NO_TEXTURE) return sample_slot(slot, in_uv).rgb;
+    return material.rows[row].xyz;
 }
 
 vec3 any_tangent(vec3 n) {
-  float s = n.z < 0.0 ? -1.0 : 1.0;  // Duff et al. 2017
-  float a = -1.0 / (s + n.z);
-  return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+    float s = n.z < 0.0 ? -1.0 : 1.0;  // Duff et al. 2017
+    float a = -1.0 / (s + n.z);
+    return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
 }
 
 // `t` made orthogonal to n and unit, or any tangent where nothing is left of it.
 vec3 tangent_to(vec3 n, vec3 t) {
-  t -= n * dot(n, t);
-  float t2 = dot(t, t);
-  return t2 > 1e-12 ? t * inversesqrt(t2) : any_tangent(n);
+    t -= n * dot(n, t);
+    float t2 = dot(t, t);
+    return t2 > 1e-12 ? t * inversesqrt(t2) : any_tangent(n);
 }
 
 // Tangent, bitangent, normal. A two-sided surface's interpolated normal is turned to the viewer by its own cosine,
 // not by the triangle's facing: at the silhouette of a smooth mesh the two differ, and a normal turned away would
 // leave a black rim. A normal map is applied on the front and turned with it.
 mat3 shading_frame(vec3 wo) {
-  vec3 n = normalize(in_normal);
-  float turn = TWO_SIDED && dot(n, wo) < 0.0 ? -1.0 : 1.0;
-  vec3 t = tangent_to(n, in_tangent.xyz);
-  if (SLOT_NORMAL != NO_TEXTURE) {
-    vec3 m = sample_slot(SLOT_NORMAL, in_uv).xyz * 2.0 - 1.0;
-    float handed = in_tangent.w < 0.0 ? -1.0 : 1.0;
-    vec3 mapped = m.x * t + m.y * handed * cross(n, t) + m.z * n;
-    if (dot(mapped, mapped) > 1e-12 && dot(in_tangent.xyz, in_tangent.xyz) > 0.0) n = normalize(mapped);
-  }
-  n *= turn;
-  t = tangent_to(n, t);
-  return mat3(t, cross(n, t), n);
+    vec3 n = normalize(in_normal);
+    float turn = TWO_SIDED && dot(n, wo) < 0.0 ? -1.0 : 1.0;
+    vec3 t = tangent_to(n, in_tangent.xyz);
+    if (SLOT_NORMAL != NO_TEXTURE) {
+        vec3 m = sample_slot(SLOT_NORMAL, in_uv).xyz * 2.0 - 1.0;
+        float handed = in_tangent.w < 0.0 ? -1.0 : 1.0;
+        vec3 mapped = m.x * t + m.y * handed * cross(n, t) + m.z * n;
+        if (dot(mapped, mapped) > 1e-12 && dot(in_tangent.xyz, in_tangent.xyz) > 0.0) n = normalize(mapped);
+    }
+    n *= turn;
+    t = tangent_to(n, t);
+    return mat3(t, cross(n, t), n);
 }
 
 // As `reference::shading` has it: roughness or alpha, stretched by the aspect, at least 1e-3.
 vec2 alphas(float roughness) {
-  float alpha = SQUARED_ROUGHNESS ? roughness * roughness : roughness;
-  float aspect = 1.0;
-  if (ANISOTROPIC) {
-    aspect = parameter(3u, SLOT_ASPECT).x;
-    if (SLOT_ASPECT != NO_TEXTURE) aspect = sqrt(1.0 - 0.9 * aspect);
-    // A tangent of length 0 has no direction to stretch along.
-    if (dot(in_tangent.xyz, in_tangent.xyz) == 0.0) aspect = 1.0;
-  }
-  return max(vec2(alpha / aspect, alpha * aspect), vec2(1e-3));
+    float alpha = SQUARED_ROUGHNESS ? roughness * roughness : roughness;
+    float aspect = 1.0;
+    if (ANISOTROPIC) {
+        aspect = parameter(3u, SLOT_ASPECT).x;
+        if (SLOT_ASPECT != NO_TEXTURE) aspect = sqrt(1.0 - 0.9 * aspect);
+        // A tangent of length 0 has no direction to stretch along.
+        if (dot(in_tangent.xyz, in_tangent.xyz) == 0.0) aspect = 1.0;
+    }
+    return max(vec2(alpha / aspect, alpha * aspect), vec2(1e-3));
 }
 
 BsdfParameters surface_parameters() {
-  BsdfParameters p;
-  p.color = parameter(0u, SLOT_COLOR);
-  p.specular = parameter(1u, SLOT_SPECULAR);
-  p.roughness = parameter(2u, SLOT_ROUGHNESS).x;
-  vec2 a = alphas(p.roughness);
-  p.alpha_x = a.x;
-  p.alpha_y = a.y;
-  p.sigma = parameter(4u, SLOT_SIGMA).x;
-  p.eta = parameter(5u, SLOT_ETA).x;
-  p.metallic = parameter(6u, SLOT_METALLIC).x;
-  p.specular_tint = parameter(7u, SLOT_SPECULAR_TINT).x;
-  p.sheen = parameter(8u, SLOT_SHEEN).x;
-  p.sheen_tint = parameter(9u, SLOT_SHEEN_TINT).x;
-  p.clearcoat = parameter(10u, SLOT_CLEARCOAT).x;
-  p.clearcoat_gloss = parameter(11u, SLOT_CLEARCOAT_GLOSS).x;
-  p.subsurface = parameter(12u, SLOT_SUBSURFACE).x;
-  return p;
+    BsdfParameters p;
+    p.color = parameter(0u, SLOT_COLOR);
+    p.specular = parameter(1u, SLOT_SPECULAR);
+    p.roughness = parameter(2u, SLOT_ROUGHNESS).x;
+    vec2 a = alphas(p.roughness);
+    p.alpha_x = a.x;
+    p.alpha_y = a.y;
+    p.sigma = parameter(4u, SLOT_SIGMA).x;
+    p.eta = parameter(5u, SLOT_ETA).x;
+    p.metallic = parameter(6u, SLOT_METALLIC).x;
+    p.specular_tint = parameter(7u, SLOT_SPECULAR_TINT).x;
+    p.sheen = parameter(8u, SLOT_SHEEN).x;
+    p.sheen_tint = parameter(9u, SLOT_SHEEN_TINT).x;
+    p.clearcoat = parameter(10u, SLOT_CLEARCOAT).x;
+    p.clearcoat_gloss = parameter(11u, SLOT_CLEARCOAT_GLOSS).x;
+    p.subsurface = parameter(12u, SLOT_SUBSURFACE).x;
+    return p;
 }
 
 // Towards the viewer, world.
 vec3 view_direction() { return PERSPECTIVE ? normalize(frame.eye - in_position) : -frame.forward; }
 
 Surface surface_here() {
-  Surface s;
-  s.position = in_position;
-  vec3 wo = view_direction();
-  s.world_from_local = shading_frame(wo);
-  s.bsdf = bsdf_setup(surface_parameters(), wo * s.world_from_local);
-  return s;
+    Surface s;
+    s.position = in_position;
+    vec3 wo = view_direction();
+    s.world_from_local = shading_frame(wo);
+    s.bsdf = bsdf_setup(surface_parameters(), wo * s.world_from_local);
+    return s;
 }
 
 // Radiance towards the viewer from one point light.
 vec3 reflected(Surface s, uint light) {
-  vec4 place = light_place(light);
-  vec4 power = light_power(light);
-  vec3 to_light = place.xyz - s.position;
-  float d2 = dot(to_light, to_light);
-  // A light on the surface has no direction: wi = 0, which every BSDF answers with 0.
-  vec3 wi = (to_light * inversesqrt(max(d2, 1e-30))) * s.world_from_local;
-  return bsdf_eval_cos(s.bsdf, wi) * (power.rgb * falloff(d2, place.w, power.w));
+    vec4 place = light_place(light);
+    vec4 power = light_power(light);
+    vec3 to_light = place.xyz - s.position;
+    float d2 = dot(to_light, to_light);
+    // A light on the surface has no direction: wi = 0, which every BSDF answers with 0.
+    vec3 wi = (to_light * inversesqrt(max(d2, 1e-30))) * s.world_from_local;
+    return bsdf_eval_cos(s.bsdf, wi) * (power.rgb * falloff(d2, place.w, power.w));
 }
 
 #endif

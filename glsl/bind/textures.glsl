@@ -25,15 +25,15 @@ layout(constant_id = 30) const uint SLOT_MASK = NO_TEXTURE;
 // Compares with constants, so that each index is one and all but one sample is compiled away.
 // Texture coordinates begin at the image's lower left, texels at its top.
 vec4 sample_slot(uint slot, vec2 uv) {
-  uv.y = 1.0 - uv.y;
-  if (slot == 0u) return texture(material_textures[0], uv);
-  if (slot == 1u) return texture(material_textures[1], uv);
-  if (slot == 2u) return texture(material_textures[2], uv);
-  if (slot == 3u) return texture(material_textures[3], uv);
-  if (slot == 4u) return texture(material_textures[4], uv);
-  if (slot == 5u) return texture(material_textures[5], uv);
-  if (slot == 6u) return texture(material_textures[6], uv);
-  return texture(material_textures[7], uv);
+    uv.y = 1.0 - uv.y;
+    if (slot == 0u) return texture(material_textures[0], uv);
+    if (slot == 1u) return texture(material_textures[1], uv);
+    if (slot == 2u) return texture(material_textures[2], uv);
+    if (slot == 3u) return texture(material_textures[3], uv);
+    if (slot == 4u) return texture(material_textures[4], uv);
+    if (slot == 5u) return texture(material_textures[5], uv);
+    if (slot == 6u) return texture(material_textures[6], uv);
+    return texture(material_textures[7], uv);
 }
 
 #endif

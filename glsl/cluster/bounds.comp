@@ -22,44 +22,44 @@ shared uint ranks[TILE_PIXELS];
 shared vec4 samples[TILE_PIXELS];  // world position, view depth
 
 void main() {
-  uint lane = gl_LocalInvocationIndex;
-  uint tile = gl_WorkGroupID.y * frame.tiles.x + gl_WorkGroupID.x;
-  if (lane < SLICE_WORDS) slices[lane] = tiles[tile].slices[lane];
-  barrier();
+    uint lane = gl_LocalInvocationIndex;
+    uint tile = gl_WorkGroupID.y * frame.tiles.x + gl_WorkGroupID.x;
+    if (lane < SLICE_WORDS) slices[lane] = tiles[tile].slices[lane];
+    barrier();
 
-  uvec2 pixel = gl_GlobalInvocationID.xy;
-  uint rank = NO_CLUSTER;
-  if (all(lessThan(pixel, frame.size))) {
-    float depth = texelFetch(depth_texture, ivec2(pixel), 0).r;
-    uint id = NO_CLUSTER;
-    if (depth > 0.0) {
-      float z = view_depth(frame, depth);
-      uint slice = slice_of(frame, z);
-      uint word = slice >> 5;
-      rank = uint(bitCount(slices[word] & ((1u << (slice & 31u)) - 1u)));
-      for (uint lower = 0u; lower < word; ++lower) rank += uint(bitCount(slices[lower]));
-      samples[lane] = vec4(world_position(frame, vec2(pixel) + 0.5, z), z);
-      id = tiles[tile].first + rank;
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    uint rank = NO_CLUSTER;
+    if (all(lessThan(pixel, frame.size))) {
+        float depth = texelFetch(depth_texture, ivec2(pixel), 0).r;
+        uint id = NO_CLUSTER;
+        if (depth > 0.0) {
+            float z = view_depth(frame, depth);
+            uint slice = slice_of(frame, z);
+            uint word = slice >> 5;
+            rank = uint(bitCount(slices[word] & ((1u << (slice & 31u)) - 1u)));
+            for (uint lower = 0u; lower < word; ++lower) rank += uint(bitCount(slices[lower]));
+            samples[lane] = vec4(world_position(frame, vec2(pixel) + 0.5, z), z);
+            id = tiles[tile].first + rank;
+        }
+        imageStore(cluster_ids, ivec2(pixel), uvec4(id));
     }
-    imageStore(cluster_ids, ivec2(pixel), uvec4(id));
-  }
-  ranks[lane] = rank;
-  barrier();
+    ranks[lane] = rank;
+    barrier();
 
-  // One invocation a cluster: no atomics, and in most tiles all of them share one vector.
-  uint id = tiles[tile].first + lane;
-  if (lane >= tiles[tile].count || id >= frame.cluster_capacity) return;
-  vec3 lower = vec3(1e38);
-  vec3 upper = vec3(-1e38);
-  float farthest = 0.0;
-  for (uint i = 0u; i < TILE_PIXELS; ++i) {
-    if (ranks[i] != lane) continue;
-    lower = min(lower, samples[i].xyz);
-    upper = max(upper, samples[i].xyz);
-    farthest = max(farthest, samples[i].w);
-  }
-  vec3 eye = abs(frame.eye);
-  float pad = PAD * (farthest + 0.1 * max(eye.x, max(eye.y, eye.z)));
-  clusters[id].lower = lower - pad;
-  clusters[id].upper = upper + pad;
+    // One invocation a cluster: no atomics, and in most tiles all of them share one vector.
+    uint id = tiles[tile].first + lane;
+    if (lane >= tiles[tile].count || id >= frame.cluster_capacity) return;
+    vec3 lower = vec3(1e38);
+    vec3 upper = vec3(-1e38);
+    float farthest = 0.0;
+    for (uint i = 0u; i < TILE_PIXELS; ++i) {
+        if (ranks[i] != lane) continue;
+        lower = min(lower, samples[i].xyz);
+        upper = max(upper, samples[i].xyz);
+        farthest = max(farthest, samples[i].w);
+    }
+    vec3 eye = abs(frame.eye);
+    float pad = PAD * (farthest + 0.1 * max(eye.x, max(eye.y, eye.z)));
+    clusters[id].lower = lower - pad;
+    clusters[id].upper = upper + pad;
 }

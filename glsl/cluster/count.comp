@@ -15,8 +15,8 @@ uint reaching = 0u;
 #include "cluster/reach.glsl"
 
 void main() {
-  uint id = gl_GlobalInvocationID.x;
-  if (id >= min(counters.clusters, frame.cluster_capacity)) return;
-  visit_lights(clusters[id].lower, clusters[id].upper);
-  clusters[id].reaching = reaching;
+    uint id = gl_GlobalInvocationID.x;
+    if (id >= min(counters.clusters, frame.cluster_capacity)) return;
+    visit_lights(clusters[id].lower, clusters[id].upper);
+    clusters[id].reaching = reaching;
 }

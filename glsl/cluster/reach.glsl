@@ -11,36 +11,36 @@ layout(set = SET_scene, binding = SCENE_LIGHT_NODES) uniform utexture2D light_no
 const float REACH = 1.00001;
 
 uint leaf_hits(uint first, uint count, vec3 lower, vec3 upper) {
-  uint hits = 0u;
-  [[unroll]] for (uint i = 0u; i < LEAF_LIGHTS; ++i) {
-    vec4 place = light_place(first + i);
-    vec3 to_box = max(max(lower - place.xyz, place.xyz - upper), vec3(0.0));
-    hits |= uint(dot(to_box, to_box) * place.w <= REACH) << i;
-  }
-  // Past the leaf's end there are other lights, or zeros.
-  return count == LEAF_LIGHTS ? hits : hits & ((1u << count) - 1u);
+    uint hits = 0u;
+    [[unroll]] for (uint i = 0u; i < LEAF_LIGHTS; ++i) {
+        vec4 place = light_place(first + i);
+        vec3 to_box = max(max(lower - place.xyz, place.xyz - upper), vec3(0.0));
+        hits |= uint(dot(to_box, to_box) * place.w <= REACH) << i;
+    }
+    // Past the leaf's end there are other lights, or zeros.
+    return count == LEAF_LIGHTS ? hits : hits & ((1u << count) - 1u);
 }
 
 // A texture, not a storage buffer, for the reason given at the lights; of integers, which no device rounds.
 LightNode node_at(uint index) {
-  ivec2 texel = ivec2((index & ((1u << NODES_PER_ROW_LOG2) - 1u)) << 1, index >> NODES_PER_ROW_LOG2);
-  uvec4 lower = texelFetch(light_nodes, texel, 0);
-  uvec4 upper = texelFetch(light_nodes, texel + ivec2(1, 0), 0);
-  return LightNode(uintBitsToFloat(lower.xyz), lower.w, uintBitsToFloat(upper.xyz), upper.w);
+    ivec2 texel = ivec2((index & ((1u << NODES_PER_ROW_LOG2) - 1u)) << 1, index >> NODES_PER_ROW_LOG2);
+    uvec4 lower = texelFetch(light_nodes, texel, 0);
+    uvec4 upper = texelFetch(light_nodes, texel + ivec2(1, 0), 0);
+    return LightNode(uintBitsToFloat(lower.xyz), lower.w, uintBitsToFloat(upper.xyz), upper.w);
 }
 
 void visit_lights(vec3 lower, vec3 upper) {
-  uint index = 0u;
-  while (index < frame.node_count) {
-    LightNode node = node_at(index);
-    if (any(greaterThan(node.lower, upper)) || any(lessThan(node.upper, lower))) {
-      index = node.skip;
-      continue;
+    uint index = 0u;
+    while (index < frame.node_count) {
+        LightNode node = node_at(index);
+        if (any(greaterThan(node.lower, upper)) || any(lessThan(node.upper, lower))) {
+            index = node.skip;
+            continue;
+        }
+        if (node.lights != 0u) {
+            uint first = node.lights >> LEAF_COUNT_BITS;
+            ON_HITS(first, leaf_hits(first, node.lights & ((1u << LEAF_COUNT_BITS) - 1u), lower, upper))
+        }
+        ++index;
     }
-    if (node.lights != 0u) {
-      uint first = node.lights >> LEAF_COUNT_BITS;
-      ON_HITS(first, leaf_hits(first, node.lights & ((1u << LEAF_COUNT_BITS) - 1u), lower, upper))
-    }
-    ++index;
-  }
 }

@@ -9,19 +9,19 @@ layout(set = SET_frame, binding = FRAME_TILES, std430) buffer TileBlock { Tile t
 layout(set = SET_frame, binding = FRAME_COUNTERS, std430) writeonly buffer CounterBlock { Counters counters; };
 
 void main() {
-  uvec2 range = chunk(frame.tiles.x * frame.tiles.y);
-  uint sum = 0u;
-  for (uint tile = range.x; tile < range.y; ++tile) sum += tiles[tile].count;
-  uint total;
-  uint first = exclusive_sum(sum, total);
-  for (uint tile = range.x; tile < range.y; ++tile) {
-    tiles[tile].first = first;
-    first += tiles[tile].count;
-  }
-  if (gl_LocalInvocationIndex == 0u) {
-    counters.groups_x = (min(total, frame.cluster_capacity) + LINEAR_GROUP - 1u) / LINEAR_GROUP;
-    counters.groups_y = 1u;
-    counters.groups_z = 1u;
-    counters.clusters = total;
-  }
+    uvec2 range = chunk(frame.tiles.x * frame.tiles.y);
+    uint sum = 0u;
+    for (uint tile = range.x; tile < range.y; ++tile) sum += tiles[tile].count;
+    uint total;
+    uint first = exclusive_sum(sum, total);
+    for (uint tile = range.x; tile < range.y; ++tile) {
+        tiles[tile].first = first;
+        first += tiles[tile].count;
+    }
+    if (gl_LocalInvocationIndex == 0u) {
+        counters.groups_x = (min(total, frame.cluster_capacity) + LINEAR_GROUP - 1u) / LINEAR_GROUP;
+        counters.groups_y = 1u;
+        counters.groups_z = 1u;
+        counters.clusters = total;
+    }
 }

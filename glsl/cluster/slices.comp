@@ -13,25 +13,25 @@ layout(set = SET_frame, binding = FRAME_TILES, std430) writeonly buffer TileBloc
 shared uint slices[SLICE_WORDS];
 
 void main() {
-  uint lane = gl_LocalInvocationIndex;
-  if (lane < SLICE_WORDS) slices[lane] = 0u;
-  barrier();
+    uint lane = gl_LocalInvocationIndex;
+    if (lane < SLICE_WORDS) slices[lane] = 0u;
+    barrier();
 
-  uvec2 pixel = gl_GlobalInvocationID.xy;
-  if (all(lessThan(pixel, frame.size))) {
-    float depth = texelFetch(depth_texture, ivec2(pixel), 0).r;
-    if (depth > 0.0) {
-      uint slice = slice_of(frame, view_depth(frame, depth));
-      atomicOr(slices[slice >> 5], 1u << (slice & 31u));
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (all(lessThan(pixel, frame.size))) {
+        float depth = texelFetch(depth_texture, ivec2(pixel), 0).r;
+        if (depth > 0.0) {
+            uint slice = slice_of(frame, view_depth(frame, depth));
+            atomicOr(slices[slice >> 5], 1u << (slice & 31u));
+        }
     }
-  }
-  barrier();
+    barrier();
 
-  uint tile = gl_WorkGroupID.y * frame.tiles.x + gl_WorkGroupID.x;
-  if (lane < SLICE_WORDS) tiles[tile].slices[lane] = slices[lane];
-  if (lane == 0u) {
-    uint count = 0u;
-    for (uint word = 0u; word < SLICE_WORDS; ++word) count += uint(bitCount(slices[word]));
-    tiles[tile].count = count;
-  }
+    uint tile = gl_WorkGroupID.y * frame.tiles.x + gl_WorkGroupID.x;
+    if (lane < SLICE_WORDS) tiles[tile].slices[lane] = slices[lane];
+    if (lane == 0u) {
+        uint count = 0u;
+        for (uint word = 0u; word < SLICE_WORDS; ++word) count += uint(bitCount(slices[word]));
+        tiles[tile].count = count;
+    }
 }

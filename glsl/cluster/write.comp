@@ -17,32 +17,32 @@ uint texel = 0u;
 uvec4 four = uvec4(0u);
 
 void append(uint light) {
-  uint slot = written & 3u;
-  // Selects, not four[slot]: a dynamic index would put the vector in memory.
-  four = uvec4(slot == 0u ? light : four.x, slot == 1u ? light : four.y, slot == 2u ? light : four.z, light);
-  ++written;
-  if (slot == 3u) imageStore(light_lists, list_texel(texel++), four);
+    uint slot = written & 3u;
+    // Selects, not four[slot]: a dynamic index would put the vector in memory.
+    four = uvec4(slot == 0u ? light : four.x, slot == 1u ? light : four.y, slot == 2u ? light : four.z, light);
+    ++written;
+    if (slot == 3u) imageStore(light_lists, list_texel(texel++), four);
 }
 
 void append_all(uint first, uint hits) {
-  // At most max_list iterations in all, well below lavapipe's limit.
-  for (; hits != 0u && written < frame.max_list; hits &= hits - 1u) append(first + uint(findLSB(hits)));
+    // At most max_list iterations in all, well below lavapipe's limit.
+    for (; hits != 0u && written < frame.max_list; hits &= hits - 1u) append(first + uint(findLSB(hits)));
 }
 
 #define ON_HITS(first, hits) append_all(first, hits);
 #include "cluster/reach.glsl"
 
 void main() {
-  uint id = gl_GlobalInvocationID.x;
-  if (id >= min(counters.clusters, frame.cluster_capacity)) return;
-  texel = clusters[id].list;
-  uint kept = min(clusters[id].reaching, frame.max_list);
-  if (texel + (kept + 3u) / 4u > frame.list_capacity) return;
-  visit_lights(clusters[id].lower, clusters[id].upper);
-  uint tail = written & 3u;
-  if (tail == 0u) return;
-  uint null_light = frame.light_count;
-  imageStore(
-      light_lists, list_texel(texel),
-      uvec4(four.x, tail > 1u ? four.y : null_light, tail > 2u ? four.z : null_light, null_light));
+    uint id = gl_GlobalInvocationID.x;
+    if (id >= min(counters.clusters, frame.cluster_capacity)) return;
+    texel = clusters[id].list;
+    uint kept = min(clusters[id].reaching, frame.max_list);
+    if (texel + (kept + 3u) / 4u > frame.list_capacity) return;
+    visit_lights(clusters[id].lower, clusters[id].upper);
+    uint tail = written & 3u;
+    if (tail == 0u) return;
+    uint null_light = frame.light_count;
+    imageStore(
+            light_lists, list_texel(texel),
+            uvec4(four.x, tail > 1u ? four.y : null_light, tail > 2u ? four.z : null_light, null_light));
 }

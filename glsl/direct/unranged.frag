@@ -13,8 +13,8 @@
 layout(location = 0) out vec4 radiance;
 
 void main() {
-  Surface surface = surface_here();
-  vec3 sum = vec3(0.0);
-  for (uint light = draw.lights.x; light < draw.lights.y; ++light) sum += reflected(surface, light);
-  radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
+    Surface surface = surface_here();
+    vec3 sum = vec3(0.0);
+    for (uint light = draw.lights.x; light < draw.lights.y; ++light) sum += reflected(surface, light);
+    radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

@@ -14,16 +14,16 @@
 layout(location = 0) out vec4 radiance;
 
 void main() {
-  Surface surface = surface_here();
-  LightList list = list_at(ivec2(gl_FragCoord.xy));
-  vec3 sum = vec3(0.0);
-  uint end = list.texel + (list.count + 3u) / 4u;
-  for (uint texel = list.texel; texel < end; ++texel) {
-    uvec4 four = list_indices(texel);
-    sum += reflected(surface, four.x);
-    sum += reflected(surface, four.y);
-    sum += reflected(surface, four.z);
-    sum += reflected(surface, four.w);
-  }
-  radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
+    Surface surface = surface_here();
+    LightList list = list_at(ivec2(gl_FragCoord.xy));
+    vec3 sum = vec3(0.0);
+    uint end = list.texel + (list.count + 3u) / 4u;
+    for (uint texel = list.texel; texel < end; ++texel) {
+        uvec4 four = list_indices(texel);
+        sum += reflected(surface, four.x);
+        sum += reflected(surface, four.y);
+        sum += reflected(surface, four.z);
+        sum += reflected(surface, four.w);
+    }
+    radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

@@ -3,29 +3,30 @@
 #define LIB_CLUSTER_GLSL
 
 float view_depth(FrameConstants frame, float depth) {
-  return (frame.view_depth.x + frame.view_depth.y * depth) / (frame.view_depth.z + frame.view_depth.w * depth);
+    return (frame.view_depth.x + frame.view_depth.y * depth) / (frame.view_depth.z + frame.view_depth.w * depth);
 }
 
 // Perspective: slice 0 from the eye to slice_start, then slice_scale slices an octave, so that clusters are about as
 // deep as wide. Orthographic: -slice_scale slices a metre. Clamped as float: a negative float has no defined uint.
 uint slice_of(FrameConstants frame, float z) {
-  float slice = frame.slice_scale > 0.0
-                    ? 1.0 + frame.slice_scale * log2(max(z, 1e-30) / frame.slice_start)
-                    : -frame.slice_scale * (z - frame.slice_start);
-  return uint(clamp(slice, 0.0, float(frame.slice_count - 1u)));
+    float slice = frame.slice_scale > 0.0
+                                        ? 1.0 + frame.slice_scale * log2(max(z, 1e-30) / frame.slice_start)
+                                        : -frame.slice_scale * (z - frame.slice_start);
+    return uint(clamp(slice, 0.0, float(frame.slice_count - 1u)));
 }
 
 // World position of the surface at view depth z under pixel coordinate p (centres at half-integers).
 vec3 world_position(FrameConstants frame, vec2 p, float z) {
-  vec3 origin = frame.ray_origin + p.x * frame.ray_origin_dx + p.y * frame.ray_origin_dy;
-  vec3 direction = frame.ray_direction + p.x * frame.ray_direction_dx + p.y * frame.ray_direction_dy;
-  return frame.eye + (origin + z * direction);
+    vec3 origin = frame.ray_origin + p.x * frame.ray_origin_dx + p.y * frame.ray_origin_dy;
+    vec3 direction = frame.ray_direction + p.x * frame.ray_direction_dx + p.y * frame.ray_direction_dy;
+    return frame.eye + (origin + z * direction);
 }
 
 ivec3 list_texel(uint texel) {
-  return ivec3(
-      int(texel & ((1u << LIST_WIDTH_LOG2) - 1u)), int((texel >> LIST_WIDTH_LOG2) & ((1u << LIST_HEIGHT_LOG2) - 1u)),
-      int(texel >> (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2)));
+    return ivec3(
+            int(texel & ((1u << LIST_WIDTH_LOG2) - 1u)),
+            int((texel >> LIST_WIDTH_LOG2) & ((1u << LIST_HEIGHT_LOG2) - 1u)),
+            int(texel >> (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2)));
 }
 
 #endif

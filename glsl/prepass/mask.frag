@@ -7,5 +7,5 @@
 layout(location = 3) in vec2 uv;
 
 void main() {
-  if (sample_slot(SLOT_MASK, uv).r < 0.5) discard;
+    if (sample_slot(SLOT_MASK, uv).r < 0.5) discard;
 }

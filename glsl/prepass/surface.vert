@@ -17,10 +17,10 @@ layout(location = 3) out vec2 out_uv;
 invariant gl_Position;
 
 void main() {
-  out_position = position;
-  out_normal = normal;
-  out_tangent = tangent;
-  out_uv = uv;
-  // Relative to the eye first: far from the origin the matrix would cancel.
-  gl_Position = frame.clip_from_eye * vec4(position - frame.eye, 1.0);
+    out_position = position;
+    out_normal = normal;
+    out_tangent = tangent;
+    out_uv = uv;
+    // Relative to the eye first: far from the origin the matrix would cancel.
+    gl_Position = frame.clip_from_eye * vec4(position - frame.eye, 1.0);
 }

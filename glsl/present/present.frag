@@ -10,8 +10,8 @@ layout(constant_id = 10) const uint TONEMAP = 0u;
 layout(location = 0) out vec4 color;
 
 void main() {
-  vec3 c = subpassLoad(hdr).rgb * draw.scale;
-  if (TONEMAP == 1u) c = aces(c);
-  if (TONEMAP == 2u) c = agx(c);
-  color = vec4(srgb_encode(c), 1.0);
+    vec3 c = subpassLoad(hdr).rgb * draw.scale;
+    if (TONEMAP == 1u) c = aces(c);
+    if (TONEMAP == 2u) c = agx(c);
+    color = vec4(srgb_encode(c), 1.0);
 }

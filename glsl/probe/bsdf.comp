@@ -17,7 +17,8 @@ layout(constant_id = 7) const bool LOBE_METALLIC = true;
 layout(local_size_x = LINEAR_GROUP) in;
 
 layout(set = SET_probe, binding = PROBE_IN, std430) readonly buffer Rows { BsdfProbeRow rows[]; };
-layout(set = SET_probe, binding = PROBE_OUT, std430) writeonly buffer Values { vec4 values[]; }; // f rgb without the cosine, 0
+// f rgb without the cosine, and 0.
+layout(set = SET_probe, binding = PROBE_OUT, std430) writeonly buffer Values { vec4 values[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

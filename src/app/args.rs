@@ -43,9 +43,7 @@ Example:
     )]
     Reference(ReferenceOptions),
     /// Error figures of picture A against picture B, the reference
-    #[command(
-        after_help = "Example:\n  amas compare picture.exr reference.exr --mask mask.png --json"
-    )]
+    #[command(after_help = "Example:\n  amas compare picture.exr reference.exr --mask mask.png --json")]
     Compare(CompareOptions),
     /// Time the frame, pass by pass
     #[command(
@@ -60,15 +58,8 @@ Example:
 impl Default for Command {
     fn default() -> Self {
         Self::Render(RenderOptions {
-            scene: SceneOptions {
-                scene: None,
-                size: None,
-                set: Vec::new(),
-            },
-            device: DeviceOptions {
-                device: std::env::var("AMAS_DEVICE").ok(),
-                validate: false,
-            },
+            scene: SceneOptions { scene: None, size: None, set: Vec::new() },
+            device: DeviceOptions { device: std::env::var("AMAS_DEVICE").ok(), validate: false },
             output: Vec::new(),
             camera: None,
             frames: None,
@@ -219,25 +210,18 @@ pub(super) struct InfoOptions {
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text
-        .split_once(['x', 'X'])
-        .and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     sides.ok_or_else(|| "write it as WIDTHxHEIGHT, such as 640x360".into())
 }
 
 fn parse_pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
-        Some((key, value)) if !key.is_empty() && !value.is_empty() => {
-            Ok((key.into(), value.into()))
-        }
+        Some((key, value)) if !key.is_empty() && !value.is_empty() => Ok((key.into(), value.into())),
         _ => Err("write it as NAME=VALUE".into()),
     }
 }
 
 fn parse_range(text: &str) -> Result<std::ops::Range<u32>, String> {
-    let ends = text
-        .split_once("..")
-        .and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
-    ends.filter(|range| !range.is_empty())
-        .ok_or_else(|| "write it as A..B with A < B, such as 0..60".into())
+    let ends = text.split_once("..").and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
+    ends.filter(|range| !range.is_empty()).ok_or_else(|| "write it as A..B with A < B, such as 0..60".into())
 }

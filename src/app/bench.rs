@@ -42,26 +42,16 @@ struct Point {
 }
 
 pub(super) fn run(options: &BenchOptions) -> Result<()> {
-    options
-        .json
-        .iter()
-        .try_for_each(|path| check_folder(path))?;
-    options
-        .scenes
-        .iter()
-        .try_for_each(|scene| check_distinct(&options.json, Some(scene)))?;
-    let device = Device::open(&Options {
-        device: options.device.device.clone(),
-        validate: options.device.validate,
-    })?;
+    options.json.iter().try_for_each(|path| check_folder(path))?;
+    options.scenes.iter().try_for_each(|scene| check_distinct(&options.json, Some(scene)))?;
+    let device =
+        Device::open(&Options { device: options.device.device.clone(), validate: options.device.validate })?;
     let scenes: Vec<Option<PathBuf>> = match options.scenes.as_slice() {
         [] => vec![None],
         scenes => scenes.iter().cloned().map(Some).collect(),
     };
-    let points = scenes
-        .into_iter()
-        .map(|scene| point(&device, options, scene))
-        .collect::<Result<Vec<_>>>()?;
+    let points =
+        scenes.into_iter().map(|scene| point(&device, options, scene)).collect::<Result<Vec<_>>>()?;
     if let Some(path) = &options.json {
         let figures = Figures {
             schema: 1,
@@ -76,34 +66,20 @@ pub(super) fn run(options: &BenchOptions) -> Result<()> {
 }
 
 fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) -> Result<Point> {
-    let name = path
-        .as_ref()
-        .map_or_else(|| "default".into(), |path| path.display().to_string());
-    let scene_options = SceneOptions {
-        scene: path,
-        size: options.size,
-        set: options.set.clone(),
-    };
+    let name = path.as_ref().map_or_else(|| "default".into(), |path| path.display().to_string());
+    let scene_options = SceneOptions { scene: path, size: options.size, set: options.set.clone() };
     let scene = load_scene(&scene_options)?;
     let camera = camera(&scene, None)?;
     let gpu_scene = Arc::new(in_scene(&scene_options, GpuScene::new(device, &scene))?);
     let settings = FrameSettings::new(&scene.render, camera);
     let mut frame = Frame::new(device, &gpu_scene, settings)?;
-    let inputs = FrameInputs {
-        camera,
-        samples: scene.render.samples,
-        exposure: scene.render.exposure,
-        split: false,
-    };
+    let inputs =
+        FrameInputs { camera, samples: scene.render.samples, exposure: scene.render.exposure, split: false };
     let (whole, all) = measure(&mut frame, &inputs, options)?;
     report::warn_of_overflow(&frame.counters(), settings.max_lights_per_cluster);
     let [width, height] = settings.size;
     let passes = report::passes(&all);
-    report::print_table(
-        &format!("{name}, {width}x{height}, {}", device.info().name),
-        &passes,
-        &whole,
-    )?;
+    report::print_table(&format!("{name}, {width}x{height}, {}", device.info().name), &passes, &whole)?;
     let pairs = report::pairs(frame.pairs()?, &passes, device.info(), settings.size);
     print(&pairs)?;
     Ok(Point {
@@ -124,19 +100,13 @@ fn measure(
     options: &BenchOptions,
 ) -> Result<(Vec<Timings>, Vec<Timings>)> {
     let total = options.warmup + options.frames + SPLIT_FRAMES;
-    let bar = if std::io::stderr().is_terminal() {
-        ProgressBar::new(total.into())
-    } else {
-        ProgressBar::hidden()
-    };
+    let bar =
+        if std::io::stderr().is_terminal() { ProgressBar::new(total.into()) } else { ProgressBar::hidden() };
     let mut render = |count: u32, split: bool| -> Result<Vec<Timings>> {
         (0..count)
             .map(|_| {
                 bar.inc(1);
-                frame.render(&FrameInputs {
-                    split,
-                    ..inputs.clone()
-                })
+                frame.render(&FrameInputs { split, ..inputs.clone() })
             })
             .collect()
     };

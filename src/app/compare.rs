@@ -6,12 +6,7 @@ use crate::compare::{Figures, compare_files};
 use crate::error::Result;
 
 pub(super) fn run(options: &CompareOptions) -> Result<()> {
-    let figures = compare_files(
-        &options.a,
-        &options.b,
-        options.mask.as_deref(),
-        options.block,
-    )?;
+    let figures = compare_files(&options.a, &options.b, options.mask.as_deref(), options.block)?;
     if options.json {
         print(format_args!("{:#}", serde_json::json!(figures)))
     } else {

@@ -19,19 +19,12 @@ pub(super) fn run(options: &InfoOptions) -> Result<()> {
     if options.json {
         let entries: Vec<_> = devices
             .iter()
-            .map(|info| Entry {
-                info,
-                usable: info.report.missing().is_none(),
-                needs: &info.report.0,
-            })
+            .map(|info| Entry { info, usable: info.report.missing().is_none(), needs: &info.report.0 })
             .collect();
         let json = serde_json::json!({ "schema": 1, "devices": entries });
         print(format_args!("{json:#}"))?;
     } else {
-        devices
-            .iter()
-            .enumerate()
-            .try_for_each(|(index, info)| print(Listed(index, info)))?;
+        devices.iter().enumerate().try_for_each(|(index, info)| print(Listed(index, info)))?;
     }
     match devices.iter().any(|info| info.report.missing().is_none()) {
         true => Ok(()),
@@ -48,18 +41,10 @@ struct Listed<'a>(usize, &'a DeviceInfo);
 impl std::fmt::Display for Listed<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self(index, info) = self;
-        write!(
-            f,
-            "{index}: {} ({}), {}, Vulkan {}",
-            info.name, info.kind, info.driver, info.api
-        )?;
+        write!(f, "{index}: {} ({}), {}, Vulkan {}", info.name, info.kind, info.driver, info.api)?;
         for check in &info.report.0 {
             let mark = if check.ok { "yes" } else { "NO " };
-            write!(
-                f,
-                "\n   {mark}  {:<44} has {:<12} for {}",
-                check.name, check.found, check.why
-            )?;
+            write!(f, "\n   {mark}  {:<44} has {:<12} for {}", check.name, check.found, check.why)?;
         }
         Ok(())
     }

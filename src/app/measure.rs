@@ -15,11 +15,7 @@ impl Figure {
     pub(super) fn of(values: &[f64]) -> Option<Self> {
         let median = median(values)?;
         let deviations: Vec<f64> = values.iter().map(|value| (value - median).abs()).collect();
-        Some(Self {
-            median,
-            mad: self::median(&deviations)?,
-            n: values.len(),
-        })
+        Some(Self { median, mad: self::median(&deviations)?, n: values.len() })
     }
 }
 
@@ -34,15 +30,8 @@ fn median(values: &[f64]) -> Option<f64> {
 /// Largest resident set of the process so far, bytes; `None` where the system does not tell.
 pub(super) fn peak_host_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status
-        .lines()
-        .find_map(|line| line.strip_prefix("VmHWM:"))?;
-    line.trim()
-        .strip_suffix("kB")?
-        .trim()
-        .parse::<u64>()
-        .ok()
-        .map(|kilobytes| kilobytes * 1024)
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
 }
 
 #[cfg(test)]
@@ -52,13 +41,6 @@ mod tests {
     #[test]
     fn median_and_deviation() {
         assert_eq!(Figure::of(&[]), None);
-        assert_eq!(
-            Figure::of(&[3.0, 1.0, 2.0, 100.0]),
-            Some(Figure {
-                median: 2.5,
-                mad: 1.0,
-                n: 4
-            })
-        );
+        assert_eq!(Figure::of(&[3.0, 1.0, 2.0, 100.0]), Some(Figure { median: 2.5, mad: 1.0, n: 4 }));
     }
 }

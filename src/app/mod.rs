@@ -73,24 +73,14 @@ fn in_scene<T>(options: &SceneOptions, result: Result<T>) -> Result<T> {
 
 /// The camera of that name, or the first.
 fn camera<'a>(scene: &'a Scene, name: Option<&str>) -> Result<&'a Camera> {
-    let names = || {
-        scene
-            .cameras
-            .iter()
-            .map(|camera| camera.name.as_str())
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
+    let names = || scene.cameras.iter().map(|camera| camera.name.as_str()).collect::<Vec<_>>().join(", ");
     let found = match name {
         Some(name) => scene.cameras.iter().find(|camera| camera.name == name),
         None => scene.cameras.first(),
     };
     found.ok_or_else(|| {
         Error::usage(
-            format!(
-                "the scene has no camera {}",
-                name.map_or_else(String::new, |name| format!("{name:?}"))
-            ),
+            format!("the scene has no camera {}", name.map_or_else(String::new, |name| format!("{name:?}"))),
             format!("choose one of: {}", names()),
         )
     })

@@ -47,19 +47,12 @@ pub(super) fn check_folder(path: &Path) -> Result<()> {
     };
     if !folder.is_dir() {
         return Err(Error::usage(
-            format!(
-                "{}: there is no folder {}",
-                path.display(),
-                folder.display()
-            ),
+            format!("{}: there is no folder {}", path.display(), folder.display()),
             "make the folder first, or write elsewhere",
         ));
     }
     if path.is_dir() {
-        return Err(Error::usage(
-            format!("{} is a folder", path.display()),
-            "name a file in it",
-        ));
+        return Err(Error::usage(format!("{} is a folder", path.display()), "name a file in it"));
     }
     // A pipe or a device is written directly, so nothing is put beside it.
     if path.metadata().is_ok_and(|old| !old.is_file()) {
@@ -68,10 +61,7 @@ pub(super) fn check_folder(path: &Path) -> Result<()> {
     let probe = folder.join(format!(".amas-{}-probe", std::process::id()));
     std::fs::write(&probe, []).map_err(|error| {
         Error::usage(
-            format!(
-                "{}: the folder cannot be written to: {error}",
-                path.display()
-            ),
+            format!("{}: the folder cannot be written to: {error}", path.display()),
             "change its rights, or write elsewhere",
         )
     })?;
@@ -85,11 +75,8 @@ pub(super) fn check_distinct<'a>(
     paths: impl IntoIterator<Item = &'a PathBuf>,
     scene: Option<&Path>,
 ) -> Result<()> {
-    let same = |a: &Path, b: &Path| {
-        a == b
-            || a.canonicalize()
-                .is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
-    };
+    let same =
+        |a: &Path, b: &Path| a == b || a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
     let paths: Vec<_> = paths.into_iter().collect();
     for (i, path) in paths.iter().enumerate() {
         let cause = if scene.is_some_and(|scene| same(path, scene)) {
@@ -120,15 +107,9 @@ pub(super) fn frame_path(path: &Path, index: u32) -> PathBuf {
 
 /// Several frames need a place for their number.
 pub(super) fn check_frames(paths: &[PathBuf], frames: u32) -> Result<()> {
-    match paths
-        .iter()
-        .find(|path| frames > 1 && placeholder(&path.to_string_lossy()).is_none())
-    {
+    match paths.iter().find(|path| frames > 1 && placeholder(&path.to_string_lossy()).is_none()) {
         Some(path) => Err(Error::usage(
-            format!(
-                "{}: every frame would overwrite the one before",
-                path.display()
-            ),
+            format!("{}: every frame would overwrite the one before", path.display()),
             "put %04d into the name",
         )),
         None => Ok(()),
@@ -145,10 +126,7 @@ fn placeholder(text: &str) -> Option<(usize, usize, usize)> {
 }
 
 fn extension(path: &Path) -> String {
-    path.extension()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_lowercase()
+    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
 #[cfg(test)]
@@ -157,10 +135,7 @@ mod tests {
 
     #[test]
     fn frames_are_numbered() {
-        assert_eq!(
-            frame_path(Path::new("a_%04d.png"), 7),
-            Path::new("a_0007.png")
-        );
+        assert_eq!(frame_path(Path::new("a_%04d.png"), 7), Path::new("a_0007.png"));
         assert_eq!(frame_path(Path::new("a_%d.png"), 12), Path::new("a_12.png"));
         assert_eq!(frame_path(Path::new("100%.png"), 1), Path::new("100%.png"));
         assert!(check_frames(&["a.png".into()], 2).is_err());

@@ -8,14 +8,8 @@ use crate::reference::{Integrator, Options, render};
 
 pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
     check_linear(&options.output)?;
-    options
-        .error
-        .iter()
-        .try_for_each(|path| check_linear(path))?;
-    check_distinct(
-        [&options.output].into_iter().chain(&options.error),
-        options.scene.scene.as_deref(),
-    )?;
+    options.error.iter().try_for_each(|path| check_linear(path))?;
+    check_distinct([&options.output].into_iter().chain(&options.error), options.scene.scene.as_deref())?;
     let scene = load_scene(&options.scene)?;
     let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
     let defaults = Options::of_scene(&scene);
@@ -35,8 +29,5 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
         },
     )?;
     rendered.image.save(&options.output)?;
-    options
-        .error
-        .iter()
-        .try_for_each(|path| rendered.standard_error.save(path))
+    options.error.iter().try_for_each(|path| rendered.standard_error.save(path))
 }

@@ -39,27 +39,14 @@ enum Variable {
 pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let mut outputs = options.output.clone();
     if outputs.is_empty() && options.aov.is_empty() {
-        outputs.push(
-            if options.frames.is_some() {
-                "amas_%04d.png"
-            } else {
-                "amas.png"
-            }
-            .into(),
-        );
+        outputs.push(if options.frames.is_some() { "amas_%04d.png" } else { "amas.png" }.into());
     }
-    let aovs = options
-        .aov
-        .iter()
-        .map(aov_output)
-        .collect::<Result<Vec<_>>>()?;
+    let aovs = options.aov.iter().map(aov_output).collect::<Result<Vec<_>>>()?;
     check_outputs(options, &outputs, &aovs)?;
     let scene = load_scene(&options.scene)?;
     let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
-    let device = Device::open(&Options {
-        device: options.device.device.clone(),
-        validate: options.device.validate,
-    })?;
+    let device =
+        Device::open(&Options { device: options.device.device.clone(), validate: options.device.validate })?;
     let gpu_scene = Arc::new(in_scene(&options.scene, GpuScene::new(&device, &scene))?);
     let settings = FrameSettings::new(&scene.render, camera);
     let mut frame = Frame::new(&device, &gpu_scene, settings)?;
@@ -72,22 +59,8 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
             Some(_) => camera.at(f64::from(index) / FRAME_RATE),
             None => camera.clone(),
         };
-        timings.push(picture(
-            &mut frame,
-            &scene,
-            &placed,
-            &outputs,
-            index,
-            options.report.is_some(),
-        )?);
-        save_aovs(
-            &device,
-            &gpu_scene,
-            &mut frame,
-            &scene,
-            &placed,
-            (&aovs, index),
-        )?;
+        timings.push(picture(&mut frame, &scene, &placed, &outputs, index, options.report.is_some())?);
+        save_aovs(&device, &gpu_scene, &mut frame, &scene, &placed, (&aovs, index))?;
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -106,30 +79,12 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
 }
 
 fn check_outputs(options: &RenderOptions, outputs: &[PathBuf], aovs: &[AovOutput]) -> Result<()> {
-    outputs
-        .iter()
-        .try_for_each(|path| check_picture(path).map(|_| ()))?;
+    outputs.iter().try_for_each(|path| check_picture(path).map(|_| ()))?;
     aovs.iter().try_for_each(|aov| check_linear(&aov.file))?;
-    options
-        .report
-        .iter()
-        .try_for_each(|path| check_folder(path))?;
-    let files: Vec<PathBuf> = outputs
-        .iter()
-        .chain(aovs.iter().map(|aov| &aov.file))
-        .cloned()
-        .collect();
-    check_distinct(
-        files.iter().chain(&options.report),
-        options.scene.scene.as_deref(),
-    )?;
-    check_frames(
-        &files,
-        options
-            .frames
-            .clone()
-            .map_or(1, |frames| frames.len() as u32),
-    )
+    options.report.iter().try_for_each(|path| check_folder(path))?;
+    let files: Vec<PathBuf> = outputs.iter().chain(aovs.iter().map(|aov| &aov.file)).cloned().collect();
+    check_distinct(files.iter().chain(&options.report), options.scene.scene.as_deref())?;
+    check_frames(&files, options.frames.clone().map_or(1, |frames| frames.len() as u32))
 }
 
 fn aov_output((name, file): &(String, String)) -> Result<AovOutput> {
@@ -147,10 +102,7 @@ fn aov_output((name, file): &(String, String)) -> Result<AovOutput> {
             ));
         }
     };
-    Ok(AovOutput {
-        variable,
-        file: file.into(),
-    })
+    Ok(AovOutput { variable, file: file.into() })
 }
 
 /// A bar on a terminal, nothing in a pipe or for a single frame.
@@ -171,19 +123,13 @@ fn picture(
     split: bool,
 ) -> Result<Timings> {
     let render = &scene.render;
-    let inputs = FrameInputs {
-        camera,
-        samples: render.samples,
-        exposure: render.exposure,
-        split,
-    };
+    let inputs = FrameInputs { camera, samples: render.samples, exposure: render.exposure, split };
     let timings = frame.render(&inputs)?;
     for output in outputs {
         let path = frame_path(output, index);
         match check_picture(output)? {
             Kind::Display => {
-                let pixels: Vec<[u8; 3]> =
-                    frame.ldr()?.iter().map(|&[r, g, b, _]| [r, g, b]).collect();
+                let pixels: Vec<[u8; 3]> = frame.ldr()?.iter().map(|&[r, g, b, _]| [r, g, b]).collect();
                 save_png8(&path, render.size[0], render.size[1], &pixels)?;
             }
             Kind::Linear => frame.hdr()?.save(&path)?,
@@ -201,38 +147,20 @@ fn save_aovs(
     (aovs, index): (&[AovOutput], u32),
 ) -> Result<()> {
     // Variables are those of the pixel's centre, and of light alone.
-    let inputs = FrameInputs {
-        camera,
-        samples: 1,
-        exposure: 0.0,
-        split: false,
-    };
+    let inputs = FrameInputs { camera, samples: 1, exposure: 0.0, split: false };
     if scene.render.samples > 1 && !aovs.is_empty() {
         frame.render(&inputs)?;
     }
     let [width, height] = scene.render.size;
-    let image = |pixels| HdrImage {
-        width,
-        height,
-        pixels,
-    };
+    let image = |pixels| HdrImage { width, height, pixels };
     for aov in aovs {
         let path = frame_path(&aov.file, index);
         match aov.variable {
             Variable::Surface(quantity) => {
-                image(
-                    frame
-                        .aov(quantity)?
-                        .iter()
-                        .map(|&[x, y, z, _]| [x, y, z])
-                        .collect(),
-                )
-                .save(&path)?;
+                image(frame.aov(quantity)?.iter().map(|&[x, y, z, _]| [x, y, z]).collect()).save(&path)?;
             }
             Variable::Direct => direct_light(device, gpu_scene, scene, camera)?.save(&path)?,
-            Variable::Indirect => {
-                image(vec![[0.0; 3]; width as usize * height as usize]).save(&path)?
-            }
+            Variable::Indirect => image(vec![[0.0; 3]; width as usize * height as usize]).save(&path)?,
         }
     }
     Ok(())
@@ -245,18 +173,10 @@ fn direct_light(
     scene: &Scene,
     camera: &Camera,
 ) -> Result<HdrImage> {
-    let settings = FrameSettings {
-        background: [0.0; 3],
-        ..FrameSettings::new(&scene.render, camera)
-    };
+    let settings = FrameSettings { background: [0.0; 3], ..FrameSettings::new(&scene.render, camera) };
     let mut frame = Frame::new(device, gpu_scene, settings)?;
     let samples = scene.render.samples;
-    frame.render(&FrameInputs {
-        camera,
-        samples,
-        exposure: 0.0,
-        split: false,
-    })?;
+    frame.render(&FrameInputs { camera, samples, exposure: 0.0, split: false })?;
     frame.hdr()
 }
 
@@ -267,9 +187,7 @@ mod tests {
 
     #[test]
     fn unknown_variables_are_named() {
-        let error = aov_output(&("albedo".into(), "a.exr".into()))
-            .err()
-            .map(|error| error.to_string());
+        let error = aov_output(&("albedo".into(), "a.exr".into())).err().map(|error| error.to_string());
         assert!(error.is_some_and(|text| text.contains("albedo") && text.contains("light_count")));
         assert!(check_linear(Path::new("a.png")).is_err());
     }

@@ -155,23 +155,13 @@ pub(super) fn passes(timings: &[Timings]) -> Vec<Pass> {
 }
 
 /// A figure over frames.
-pub(super) fn figure(
-    timings: &[Timings],
-    value: impl Fn(&Timings) -> Option<f64>,
-) -> Option<Figure> {
+pub(super) fn figure(timings: &[Timings], value: impl Fn(&Timings) -> Option<f64>) -> Option<Figure> {
     Figure::of(&timings.iter().filter_map(value).collect::<Vec<_>>())
 }
 
 /// What the last frame's cluster pass counted.
 pub(super) fn clusters(frame: &Frame) -> Clusters {
-    let Counters {
-        clusters,
-        entries,
-        longest,
-        overflowed,
-        dropped,
-        ..
-    } = frame.counters();
+    let Counters { clusters, entries, longest, overflowed, dropped, .. } = frame.counters();
     Clusters {
         grid: frame.grid(),
         occupied: clusters,
@@ -192,36 +182,23 @@ pub(super) fn pairs(
     [width, height]: [u32; 2],
 ) -> Pairs {
     let time = |pass: &Pass| {
-        if device.kind == "cpu" {
-            pass.cpu_ms
-        } else {
-            pass.gpu_ms.map(|ms| ms.median)
-        }
+        if device.kind == "cpu" { pass.cpu_ms } else { pass.gpu_ms.map(|ms| ms.median) }
     };
-    let shading = passes
-        .iter()
-        .filter(|pass| matches!(pass.name, "direct" | "indirect"));
+    let shading = passes.iter().filter(|pass| matches!(pass.name, "direct" | "indirect"));
     let ms: Option<f64> = shading.map(time).sum();
     Pairs {
         evaluated: count.evaluated,
         useful: count.useful,
         per_pixel: count.evaluated as f64 / (f64::from(width) * f64::from(height)),
-        ns_per_pair: ms
-            .filter(|_| count.evaluated > 0)
-            .map(|ms| ms * 1e6 / count.evaluated as f64),
+        ns_per_pair: ms.filter(|_| count.evaluated > 0).map(|ms| ms * 1e6 / count.evaluated as f64),
     }
 }
 
 impl std::fmt::Display for Pairs {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let ratio = self.evaluated as f64 / self.useful.max(1) as f64;
-        write!(
-            f,
-            "{:.1} pairs a pixel, {ratio:.2} evaluated per useful one",
-            self.per_pixel
-        )?;
-        self.ns_per_pair
-            .map_or(Ok(()), |ns| write!(f, ", {ns:.2} ns a pair"))
+        write!(f, "{:.1} pairs a pixel, {ratio:.2} evaluated per useful one", self.per_pixel)?;
+        self.ns_per_pair.map_or(Ok(()), |ns| write!(f, ", {ns:.2} ns a pair"))
     }
 }
 
@@ -241,19 +218,10 @@ pub(super) fn print_table(title: &str, passes: &[Pass], frames: &[Timings]) -> R
         None => format!("{:>9}", "-"),
     };
     print(title)?;
-    print(format_args!(
-        "{:<10} {:>9}       {:>9}",
-        "pass", "device ms", "CPU ms"
-    ))?;
+    print(format_args!("{:<10} {:>9}       {:>9}", "pass", "device ms", "CPU ms"))?;
     for pass in passes {
-        let cpu = pass
-            .cpu_ms
-            .map_or_else(|| format!("{:>9}", "-"), |ms| format!("{ms:9.2}"));
-        print(format_args!(
-            "{:<10} {:<16}{cpu}",
-            pass.name,
-            ms(pass.gpu_ms)
-        ))?;
+        let cpu = pass.cpu_ms.map_or_else(|| format!("{:>9}", "-"), |ms| format!("{ms:9.2}"));
+        print(format_args!("{:<10} {:<16}{cpu}", pass.name, ms(pass.gpu_ms)))?;
     }
     print(format_args!(
         "{:<10} {:<16}{}",

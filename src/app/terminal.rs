@@ -11,10 +11,9 @@ use std::io::{ErrorKind, Write, stderr, stdout};
 pub(super) fn print(text: impl Display) -> Result<()> {
     let mut out = stdout().lock();
     match writeln!(out, "{text}").and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Error::Write {
-            file: "stdout".into(),
-            source: error,
-        }),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Error::Write { file: "stdout".into(), source: error })
+        }
         _ => Ok(()),
     }
 }

@@ -21,43 +21,28 @@ pub(super) fn samples(a: &HdrImage, b: &HdrImage, keep: &[bool], block: u32) -> 
         let (x, y) = (index % width, index / width);
         let (sum, count) = &mut sums[y / block * columns + x / block];
         for (sum, pixel) in sum.iter_mut().zip([a.pixels[index], b.pixels[index]]) {
-            sum.iter_mut()
-                .zip(pixel)
-                .for_each(|(sum, value)| *sum += f64::from(value));
+            sum.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += f64::from(value));
         }
         *count += 1;
     }
-    let mean = |(sum, count): ([[f64; 3]; 2], u32)| {
-        sum.map(|color| color.map(|value| value / f64::from(count)))
-    };
-    sums.into_iter()
-        .filter(|(_, count)| *count > 0)
-        .map(mean)
-        .collect()
+    let mean =
+        |(sum, count): ([[f64; 3]; 2], u32)| sum.map(|color| color.map(|value| value / f64::from(count)));
+    sums.into_iter().filter(|(_, count)| *count > 0).map(mean).collect()
 }
 
 /// All figures but FLIP and the count of non-finite pixels, which are 0.
 pub(super) fn of_samples([width, height]: [u32; 2], samples: &[Sample]) -> Figures {
     let n = (3 * samples.len()) as f64;
-    let pairs = || {
-        samples
-            .iter()
-            .flat_map(|[a, b]| a.iter().copied().zip(b.iter().copied()))
-    };
+    let pairs = || samples.iter().flat_map(|[a, b]| a.iter().copied().zip(b.iter().copied()));
     let mean = pairs().map(|(_, b)| b).sum::<f64>() / n;
     let difference = pairs().map(|(a, b)| a - b).sum::<f64>() / n;
     let error = |a: f64, b: f64| ratio((a - b).abs(), b.abs().max(FLOOR * mean));
     let mut errors: Vec<_> = pairs().map(|(a, b)| error(a, b)).collect();
     errors.sort_unstable_by(f64::total_cmp);
     let off = |[a, b]: &&Sample| a.iter().zip(b).any(|(&a, &b)| error(a, b) > 0.01);
-    let relative_square =
-        |(a, b): (f64, f64)| ratio((a - b).powi(2), b * b + EPSILON * mean * mean);
-    let largest = |which: usize| {
-        samples
-            .iter()
-            .flat_map(|sample| sample[which])
-            .fold(f64::NEG_INFINITY, f64::max)
-    };
+    let relative_square = |(a, b): (f64, f64)| ratio((a - b).powi(2), b * b + EPSILON * mean * mean);
+    let largest =
+        |which: usize| samples.iter().flat_map(|sample| sample[which]).fold(f64::NEG_INFINITY, f64::max);
     Figures {
         width,
         height,
@@ -80,11 +65,7 @@ pub(super) fn of_samples([width, height]: [u32; 2], samples: &[Sample]) -> Figur
 
 /// 0/0 is 0: equal blacks do not differ.
 fn ratio(difference: f64, scale: f64) -> f64 {
-    if difference == 0.0 {
-        0.0
-    } else {
-        difference / scale
-    }
+    if difference == 0.0 { 0.0 } else { difference / scale }
 }
 
 /// The least sorted value that at least the share `p` of all does not exceed.

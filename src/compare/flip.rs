@@ -27,11 +27,8 @@ const FEATURE_WIDTH: f64 = 0.082;
 
 /// (a, b) of the two Gaussians a √(π/b) exp(−π²x²/b), x in degrees, of the achromatic, red–green and blue–yellow
 /// contrast sensitivity.
-const SENSITIVITY: [[(f64, f64); 2]; 3] = [
-    [(1.0, 0.0047), (0.0, 1e-5)],
-    [(1.0, 0.0053), (0.0, 1e-5)],
-    [(34.1, 0.04), (13.5, 0.025)],
-];
+const SENSITIVITY: [[(f64, f64); 2]; 3] =
+    [[(1.0, 0.0047), (0.0, 1e-5)], [(1.0, 0.0053), (0.0, 1e-5)], [(34.1, 0.04), (13.5, 0.025)]];
 
 /// Linear sRGB to XYZ (IEC 61966-2-1).
 const XYZ_FROM_RGB: [[f64; 3]; 3] = [
@@ -54,27 +51,14 @@ type Color = [f64; 3];
 /// either is black in both, so that it does not spread.
 #[must_use]
 pub fn map(a: &HdrImage, b: &HdrImage, display_referred: bool) -> Vec<f64> {
-    let size = Size {
-        width: b.width as usize,
-        height: b.height as usize,
-    };
-    let exposure = if display_referred {
-        None
-    } else {
-        Some(0.18 / mean_luminance(b))
-    };
+    let size = Size { width: b.width as usize, height: b.height as usize };
+    let exposure = if display_referred { None } else { Some(0.18 / mean_luminance(b)) };
     let finite = |pixel: &[f32; 3]| pixel.iter().all(|value| value.is_finite());
     let shown = |image: &HdrImage| {
-        let pair = a
-            .pixels
-            .par_iter()
-            .zip(&b.pixels)
-            .map(|(a, b)| finite(a) && finite(b));
+        let pair = a.pixels.par_iter().zip(&b.pixels).map(|(a, b)| finite(a) && finite(b));
         let pixel = |(pixel, shown): (&[f32; 3], bool)| if shown { *pixel } else { [0.0; 3] };
         let shown = image.pixels.par_iter().zip(pair).map(pixel);
-        shown
-            .map(|pixel| opponent(displayed(pixel, exposure)))
-            .collect()
+        shown.map(|pixel| opponent(displayed(pixel, exposure))).collect()
     };
     let [a, b] = [a, b].map(|image| Appearance::new(shown(image), size));
     let greatest = greatest_color_difference();
@@ -85,10 +69,7 @@ pub fn map(a: &HdrImage, b: &HdrImage, display_referred: bool) -> Vec<f64> {
         let feature = (edge.max(point) * std::f64::consts::FRAC_1_SQRT_2).powf(QF);
         color.powf((1.0 - feature).max(0.0))
     };
-    (0..size.width * size.height)
-        .into_par_iter()
-        .map(pixel)
-        .collect()
+    (0..size.width * size.height).into_par_iter().map(pixel).collect()
 }
 
 /// Mean luminance of the finite pixels; 1 for black pictures.
@@ -127,17 +108,11 @@ impl Appearance {
         let filtered = [0, 1, 2].map(|c| sensitivity_filtered(&channel(c), c, size));
         let seen = |i: usize| {
             let [y, x, z] = [filtered[0][i], filtered[1][i], filtered[2][i]];
-            hunt(lab(
-                linear_from_opponent([y, x, z]).map(|value| value.clamp(0.0, 1.0))
-            ))
+            hunt(lab(linear_from_opponent([y, x, z]).map(|value| value.clamp(0.0, 1.0))))
         };
         let luminance: Vec<_> = opponent.iter().map(|c| (c[0] + 16.0) / 116.0).collect();
         let [edges, points] = features(&luminance, size);
-        Self {
-            color: (0..opponent.len()).into_par_iter().map(seen).collect(),
-            edges,
-            points,
-        }
+        Self { color: (0..opponent.len()).into_par_iter().map(seen).collect(), edges, points }
     }
 }
 
@@ -153,11 +128,7 @@ fn opponent(rgb: Color) -> Color {
 
 fn linear_from_opponent([y, cx, cz]: Color) -> Color {
     let y = (y + 16.0) / 116.0;
-    let xyz = [
-        (y + cx / 500.0) * WHITE[0],
-        y * WHITE[1],
-        (y - cz / 200.0) * WHITE[2],
-    ];
+    let xyz = [(y + cx / 500.0) * WHITE[0], y * WHITE[1], (y - cz / 200.0) * WHITE[2]];
     transform(&RGB_FROM_XYZ, xyz)
 }
 
@@ -168,13 +139,8 @@ fn white_relative(rgb: Color) -> Color {
 
 fn lab(rgb: Color) -> Color {
     const DELTA: f64 = 6.0 / 29.0;
-    let [x, y, z] = white_relative(rgb).map(|t| {
-        if t > DELTA.powi(3) {
-            t.cbrt()
-        } else {
-            t / (3.0 * DELTA * DELTA) + 4.0 / 29.0
-        }
-    });
+    let [x, y, z] = white_relative(rgb)
+        .map(|t| if t > DELTA.powi(3) { t.cbrt() } else { t / (3.0 * DELTA * DELTA) + 4.0 / 29.0 });
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
@@ -220,9 +186,7 @@ fn sensitivity_filtered(channel: &[f64], index: usize, size: Size) -> Vec<f64> {
         let share = a * (std::f64::consts::PI / b).sqrt() * kernel.sum().powi(2);
         let kernel = kernel.scaled(1.0 / kernel.sum());
         let filtered = convolve(channel, &kernel, &kernel, size);
-        sum.iter_mut()
-            .zip(filtered)
-            .for_each(|(sum, value)| *sum += share * value);
+        sum.iter_mut().zip(filtered).for_each(|(sum, value)| *sum += share * value);
         weight += share;
     }
     sum.iter().map(|value| value / weight).collect()

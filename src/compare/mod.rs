@@ -99,11 +99,7 @@ impl Mask {
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let grey = decode(path.as_ref(), ImageFormat::Png)?.into_luma8();
         let keep = grey.pixels().map(|pixel| pixel.0 == [255]).collect();
-        Ok(Self {
-            width: grey.width(),
-            height: grey.height(),
-            keep,
-        })
+        Ok(Self { width: grey.width(), height: grey.height(), keep })
     }
 }
 
@@ -119,28 +115,19 @@ pub fn compare(a: &HdrImage, b: &HdrImage, options: &Options) -> Result<Figures>
     }
     let finite = |pixel: [f32; 3]| pixel.iter().all(|value| value.is_finite());
     let masked = |i: usize| options.mask.is_none_or(|mask| mask.keep[i]);
-    let keep: Vec<_> = (0..b.pixels.len())
-        .map(|i| masked(i) && finite(a.pixels[i]) && finite(b.pixels[i]))
-        .collect();
+    let keep: Vec<_> =
+        (0..b.pixels.len()).map(|i| masked(i) && finite(a.pixels[i]) && finite(b.pixels[i])).collect();
     let kept = keep.iter().filter(|&&keep| keep).count();
     if kept == 0 {
-        let cause =
-            "no pixel is left to compare: the mask is empty or every value is NaN or infinite";
-        return Err(Error::usage(
-            cause,
-            "give a mask with pixels of value 255, or none",
-        ));
+        let cause = "no pixel is left to compare: the mask is empty or every value is NaN or infinite";
+        return Err(Error::usage(cause, "give a mask with pixels of value 255, or none"));
     }
     let samples = figures::samples(a, b, &keep, options.block.max(1));
     let error = flip::map(a, b, options.display_referred);
     let under_mask = error.iter().zip(&keep).filter(|(_, keep)| **keep);
     let flip = under_mask.map(|(error, _)| error).sum::<f64>() / kept as f64;
     let non_finite = (0..keep.len()).filter(|&i| masked(i)).count() - kept;
-    Ok(Figures {
-        non_finite,
-        flip,
-        ..figures::of_samples(size, &samples)
-    })
+    Ok(Figures { non_finite, flip, ..figures::of_samples(size, &samples) })
 }
 
 /// Compares two files, see [`compare`]; two PNGs are taken as display-referred.
@@ -150,17 +137,12 @@ pub fn compare(a: &HdrImage, b: &HdrImage, options: &Options) -> Result<Figures>
 pub fn compare_files(a: &Path, b: &Path, mask: Option<&Path>, block: u32) -> Result<Figures> {
     let mask = mask.map(Mask::load).transpose()?;
     let display_referred = [a, b].iter().all(|path| extension(path) == "png");
-    let options = Options {
-        mask: mask.as_ref(),
-        block,
-        display_referred,
-    };
+    let options = Options { mask: mask.as_ref(), block, display_referred };
     let (a_image, b_image) = (HdrImage::load(a)?, HdrImage::load(b)?);
     compare(&a_image, &b_image, &options).map_err(|error| match error {
-        Error::Usage { cause, remedy } => Error::usage(
-            format!("{} against {}: {cause}", a.display(), b.display()),
-            remedy,
-        ),
+        Error::Usage { cause, remedy } => {
+            Error::usage(format!("{} against {}: {cause}", a.display(), b.display()), remedy)
+        }
         error => error,
     })
 }

@@ -37,21 +37,8 @@ pub(super) struct Stopwatch {
 
 impl Stopwatch {
     pub(super) fn start(names: &[&'static str]) -> Self {
-        let passes = names
-            .iter()
-            .map(|&name| PassTime {
-                name,
-                gpu_ms: None,
-                cpu_ms: None,
-            })
-            .collect();
-        Self {
-            wall: Instant::now(),
-            cpu: ProcessTime::now(),
-            passes,
-            shared: Vec::new(),
-            next: 0,
-        }
+        let passes = names.iter().map(|&name| PassTime { name, gpu_ms: None, cpu_ms: None }).collect();
+        Self { wall: Instant::now(), cpu: ProcessTime::now(), passes, shared: Vec::new(), next: 0 }
     }
 
     pub(super) fn cpu(&self) -> Duration {
@@ -87,10 +74,7 @@ impl Stopwatch {
             let total: f64 = passes.iter().filter_map(|pass| pass.gpu_ms).sum();
             let even = 1.0 / passes.len().max(1) as f64;
             for pass in passes {
-                let share = pass
-                    .gpu_ms
-                    .filter(|_| total > 0.0)
-                    .map_or(even, |gpu| gpu / total);
+                let share = pass.gpu_ms.filter(|_| total > 0.0).map_or(even, |gpu| gpu / total);
                 *pass.cpu_ms.get_or_insert(0.0) += ms * share;
             }
         }

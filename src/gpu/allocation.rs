@@ -34,11 +34,7 @@ impl Memory {
             allocation_sizes: gpu_allocator::AllocationSizes::default(),
         })
         .map_err(|error| out_of_memory("the memory allocator", &error))?;
-        Ok(Self(Mutex::new(State {
-            allocator: Some(allocator),
-            used: 0,
-            peak: 0,
-        })))
+        Ok(Self(Mutex::new(State { allocator: Some(allocator), used: 0, peak: 0 })))
     }
 
     pub(super) fn allocate(
@@ -83,10 +79,7 @@ impl Memory {
 
     /// Returns every block to the driver; only the device's `Drop` calls this.
     pub(super) fn close(&self) {
-        self.0
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .allocator = None;
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).allocator = None;
     }
 }
 
@@ -109,26 +102,18 @@ impl Device {
         let requirements = unsafe { self.raw.get_buffer_memory_requirements(buffer) };
         let allocation = self.memory.allocate(name, requirements, location, true)?;
         // SAFETY: the memory is fresh, large enough and of an allowed type, as the allocator promises.
-        unsafe {
-            self.raw
-                .bind_buffer_memory(buffer, allocation.memory(), allocation.offset())
-        }
-        .called("vkBindBufferMemory")?;
+        unsafe { self.raw.bind_buffer_memory(buffer, allocation.memory(), allocation.offset()) }
+            .called("vkBindBufferMemory")?;
         Ok(allocation)
     }
 
     pub(super) fn allocate_for_image(&self, name: &str, image: vk::Image) -> Result<Allocation> {
         // SAFETY: the image was made by this device.
         let requirements = unsafe { self.raw.get_image_memory_requirements(image) };
-        let allocation =
-            self.memory
-                .allocate(name, requirements, MemoryLocation::GpuOnly, false)?;
+        let allocation = self.memory.allocate(name, requirements, MemoryLocation::GpuOnly, false)?;
         // SAFETY: as for buffers.
-        unsafe {
-            self.raw
-                .bind_image_memory(image, allocation.memory(), allocation.offset())
-        }
-        .called("vkBindImageMemory")?;
+        unsafe { self.raw.bind_image_memory(image, allocation.memory(), allocation.offset()) }
+            .called("vkBindImageMemory")?;
         Ok(allocation)
     }
 }

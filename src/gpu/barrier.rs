@@ -61,24 +61,17 @@ impl Use {
             ),
             // GENERAL: the same images are written as storage images each frame.
             Self::FragmentRead => (S::FRAGMENT_SHADER, A::SHADER_READ, L::GENERAL),
-            Self::Texture => (
-                S::FRAGMENT_SHADER,
-                A::SHADER_READ,
-                L::SHADER_READ_ONLY_OPTIMAL,
-            ),
+            Self::Texture => (S::FRAGMENT_SHADER, A::SHADER_READ, L::SHADER_READ_ONLY_OPTIMAL),
             Self::DepthWrite => (
                 DEPTH_TESTS,
                 A::from_raw(
-                    A::DEPTH_STENCIL_ATTACHMENT_READ.as_raw()
-                        | A::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
+                    A::DEPTH_STENCIL_ATTACHMENT_READ.as_raw() | A::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
                 ),
                 L::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
             ),
-            Self::DepthTest => (
-                DEPTH_TESTS,
-                A::DEPTH_STENCIL_ATTACHMENT_READ,
-                L::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
-            ),
+            Self::DepthTest => {
+                (DEPTH_TESTS, A::DEPTH_STENCIL_ATTACHMENT_READ, L::DEPTH_STENCIL_READ_ONLY_OPTIMAL)
+            }
             Self::DepthRead => (
                 S::from_raw(DEPTH_TESTS.as_raw() | S::COMPUTE_SHADER.as_raw()),
                 A::from_raw(A::DEPTH_STENCIL_ATTACHMENT_READ.as_raw() | A::SHADER_READ.as_raw()),
@@ -89,11 +82,7 @@ impl Use {
                 A::from_raw(A::COLOR_ATTACHMENT_READ.as_raw() | A::COLOR_ATTACHMENT_WRITE.as_raw()),
                 L::COLOR_ATTACHMENT_OPTIMAL,
             ),
-            Self::InputRead => (
-                S::FRAGMENT_SHADER,
-                A::INPUT_ATTACHMENT_READ,
-                L::SHADER_READ_ONLY_OPTIMAL,
-            ),
+            Self::InputRead => (S::FRAGMENT_SHADER, A::INPUT_ATTACHMENT_READ, L::SHADER_READ_ONLY_OPTIMAL),
             // Presenting synchronises by itself.
             Self::Present => (S::BOTTOM_OF_PIPE, A::empty(), L::PRESENT_SRC_KHR),
         }
@@ -107,7 +96,5 @@ impl Use {
 
 /// A memory barrier over all buffers: `before` happens, then `after` sees it.
 pub(super) fn memory(before: Use, after: Use) -> vk::MemoryBarrier<'static> {
-    vk::MemoryBarrier::default()
-        .src_access_mask(before.scope().1)
-        .dst_access_mask(after.scope().1)
+    vk::MemoryBarrier::default().src_access_mask(before.scope().1).dst_access_mask(after.scope().1)
 }

@@ -32,9 +32,7 @@ impl BufferUse {
         let both = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
         both | match self {
             Self::Uniform => vk::BufferUsageFlags::UNIFORM_BUFFER,
-            Self::Storage => {
-                vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDIRECT_BUFFER
-            }
+            Self::Storage => vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDIRECT_BUFFER,
             Self::Vertex => vk::BufferUsageFlags::VERTEX_BUFFER,
             Self::Index => vk::BufferUsageFlags::INDEX_BUFFER,
             Self::Upload | Self::Readback => vk::BufferUsageFlags::empty(),
@@ -68,9 +66,7 @@ impl<T: Pod> Buffer<T> {
     /// [`Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, name: &str, usage: BufferUse, len: usize) -> Result<Self> {
         let bytes = (len.max(1) * size_of::<T>()) as vk::DeviceSize;
-        let info = vk::BufferCreateInfo::default()
-            .size(bytes)
-            .usage(usage.flags());
+        let info = vk::BufferCreateInfo::default().size(bytes).usage(usage.flags());
         // SAFETY: the size is not 0, and the usage fits the device by Vulkan's guarantees.
         let raw = unsafe { device.raw.create_buffer(&info, None) }.called("vkCreateBuffer")?;
         let mut buffer = Self {
@@ -121,10 +117,7 @@ impl<T: Pod> Buffer<T> {
     /// [`Error::Vulkan`] where the buffer is not host-visible or too short: a bug in amas.
     pub fn write(&mut self, data: &[T]) -> Result<()> {
         let bytes: &[u8] = bytemuck::cast_slice(data);
-        let mapped = self
-            .allocation
-            .as_mut()
-            .and_then(Allocation::mapped_slice_mut);
+        let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
         match mapped.and_then(|mapped| mapped.get_mut(..bytes.len())) {
             Some(target) => {
                 target.copy_from_slice(bytes);
@@ -201,10 +194,6 @@ impl Commands {
     /// Fills a buffer with a repeated word.
     pub fn fill_buffer<T: Pod>(&mut self, buffer: &Buffer<T>, word: u32) {
         // SAFETY: the whole buffer; its size is a multiple of 4 for every shared struct.
-        unsafe {
-            self.device
-                .raw
-                .cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, word)
-        };
+        unsafe { self.device.raw.cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, word) };
     }
 }

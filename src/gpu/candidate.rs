@@ -32,12 +32,9 @@ pub(super) fn candidates(
     presentation: Option<&dyn Presentation>,
 ) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
-    let devices = unsafe { instance.raw.enumerate_physical_devices() }
-        .called("vkEnumeratePhysicalDevices")?;
-    Ok(devices
-        .into_iter()
-        .map(|physical| describe(&instance.raw, physical, presentation))
-        .collect())
+    let devices =
+        unsafe { instance.raw.enumerate_physical_devices() }.called("vkEnumeratePhysicalDevices")?;
+    Ok(devices.into_iter().map(|physical| describe(&instance.raw, physical, presentation)).collect())
 }
 
 fn describe(
@@ -54,9 +51,8 @@ fn describe(
     let queues = unsafe { instance.get_physical_device_queue_family_properties(physical) };
     let family = requirements::queue_families(&queues)
         .find(|&family| presentation.is_none_or(|target| target.presents(physical, family)));
-    let timestamp_bits = family
-        .and_then(|family| queues.get(family as usize))
-        .map_or(0, |queue| queue.timestamp_valid_bits);
+    let timestamp_bits =
+        family.and_then(|family| queues.get(family as usize)).map_or(0, |queue| queue.timestamp_valid_bits);
     let (kind, rank) = match properties.device_type {
         vk::PhysicalDeviceType::DISCRETE_GPU => ("discrete", 0),
         vk::PhysicalDeviceType::INTEGRATED_GPU => ("integrated", 1),
@@ -67,22 +63,13 @@ fn describe(
     let text = |raw: Result<&std::ffi::CStr, _>| {
         raw.map_or_else(|_| "?".into(), |s| s.to_string_lossy().into_owned())
     };
-    let mut report = requirements::check(&Facts {
-        instance,
-        device: physical,
-        properties,
-        queues,
-    });
+    let mut report = requirements::check(&Facts { instance, device: physical, properties, queues });
     if let Some(target) = presentation {
         report.0.extend(target.checks(physical, family));
     }
     let info = DeviceInfo {
         name: text(properties.device_name_as_c_str()),
-        driver: format!(
-            "{} {}",
-            text(driver.driver_name_as_c_str()),
-            text(driver.driver_info_as_c_str())
-        ),
+        driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str())),
         api: requirements::version_text(properties.api_version),
         kind,
         report,
@@ -103,15 +90,11 @@ pub(super) fn choose(mut candidates: Vec<Candidate>, wanted: Option<&str>) -> Re
     if candidates.is_empty() {
         return Err(Error::NoDevice {
             cause: "the machine has no Vulkan driver".into(),
-            remedy: "run ./setup, or install a driver; mesa-vulkan-drivers renders on the CPU"
-                .into(),
+            remedy: "run ./setup, or install a driver; mesa-vulkan-drivers renders on the CPU".into(),
         });
     }
-    let names: Vec<String> = candidates
-        .iter()
-        .enumerate()
-        .map(|(i, candidate)| format!("{i}: {}", candidate.info.name))
-        .collect();
+    let names: Vec<String> =
+        candidates.iter().enumerate().map(|(i, candidate)| format!("{i}: {}", candidate.info.name)).collect();
     let index = match wanted {
         Some(wanted) => find(&candidates, wanted),
         None => (0..candidates.len())
@@ -137,13 +120,7 @@ pub(super) fn choose(mut candidates: Vec<Candidate>, wanted: Option<&str>) -> Re
         None => {
             let reasons: Vec<String> = candidates
                 .iter()
-                .map(|c| {
-                    format!(
-                        "{}: {}",
-                        c.info.name,
-                        c.info.report.missing().unwrap_or_default()
-                    )
-                })
+                .map(|c| format!("{}: {}", c.info.name, c.info.report.missing().unwrap_or_default()))
                 .collect();
             Err(unusable(&reasons.join("; ")))
         }

@@ -28,8 +28,7 @@ impl Commands {
         record: impl FnOnce(&mut Self) -> Result<T>,
     ) -> Result<T> {
         device.name(raw, name);
-        let begin = vk::CommandBufferBeginInfo::default()
-            .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
         // SAFETY: the buffer is fresh from its pool.
         unsafe { device.raw.begin_command_buffer(raw, &begin) }.called("vkBeginCommandBuffer")?;
         let mut commands = Self {
@@ -80,11 +79,7 @@ impl Commands {
         self.point = vk::PipelineBindPoint::COMPUTE;
         self.layout = pipeline.layout.raw;
         // SAFETY: the pipeline is alive until the work is waited for.
-        unsafe {
-            self.device
-                .raw
-                .cmd_bind_pipeline(self.raw, self.point, pipeline.raw)
-        };
+        unsafe { self.device.raw.cmd_bind_pipeline(self.raw, self.point, pipeline.raw) };
         self.bind_sets(0, sets);
     }
 
@@ -93,11 +88,7 @@ impl Commands {
         self.point = vk::PipelineBindPoint::GRAPHICS;
         self.layout = pipeline.layout.raw;
         // SAFETY: as for compute.
-        unsafe {
-            self.device
-                .raw
-                .cmd_bind_pipeline(self.raw, self.point, pipeline.raw)
-        };
+        unsafe { self.device.raw.cmd_bind_pipeline(self.raw, self.point, pipeline.raw) };
     }
 
     /// Binds sets from number `first` on, for the pipeline bound last.
@@ -105,79 +96,44 @@ impl Commands {
         let raws: Vec<_> = sets.iter().map(|set| set.raw).collect();
         // SAFETY: the sets were made with the layout's tables.
         unsafe {
-            self.device.raw.cmd_bind_descriptor_sets(
-                self.raw,
-                self.point,
-                self.layout,
-                first,
-                &raws,
-                &[],
-            )
+            self.device.raw.cmd_bind_descriptor_sets(self.raw, self.point, self.layout, first, &raws, &[])
         };
     }
 
     /// Sets push constants from offset 0.
     pub fn push<T: Pod>(&mut self, constants: &T) {
         let bytes = bytemuck::bytes_of(constants);
-        debug_assert!(
-            bytes.len() <= PUSH_BYTES as usize,
-            "push constants are at most 128 bytes"
-        );
-        let stages = vk::ShaderStageFlags::VERTEX
-            | vk::ShaderStageFlags::FRAGMENT
-            | vk::ShaderStageFlags::COMPUTE;
+        debug_assert!(bytes.len() <= PUSH_BYTES as usize, "push constants are at most 128 bytes");
+        let stages =
+            vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT | vk::ShaderStageFlags::COMPUTE;
         // SAFETY: every pipeline layout has 128 bytes for these stages.
-        unsafe {
-            self.device
-                .raw
-                .cmd_push_constants(self.raw, self.layout, stages, 0, bytes)
-        };
+        unsafe { self.device.raw.cmd_push_constants(self.raw, self.layout, stages, 0, bytes) };
     }
 
     /// Dispatches workgroups.
     pub fn dispatch(&mut self, groups: [u32; 3]) {
         // SAFETY: a compute pipeline and its sets are bound.
-        unsafe {
-            self.device
-                .raw
-                .cmd_dispatch(self.raw, groups[0], groups[1], groups[2])
-        };
+        unsafe { self.device.raw.cmd_dispatch(self.raw, groups[0], groups[1], groups[2]) };
     }
 
     /// Dispatches as many workgroups as the buffer's first three words say.
     pub fn dispatch_indirect<T: Pod>(&mut self, arguments: &Buffer<T>) {
         // SAFETY: the buffer begins with three words, as its shared struct says.
-        unsafe {
-            self.device
-                .raw
-                .cmd_dispatch_indirect(self.raw, arguments.raw, 0)
-        };
+        unsafe { self.device.raw.cmd_dispatch_indirect(self.raw, arguments.raw, 0) };
     }
 
     /// Binds vertices and indices.
     pub fn bind_triangles(&mut self, vertices: &Buffer<Vertex>, triangles: &Buffer<[u32; 3]>) {
         // SAFETY: the buffers are alive until the work is waited for.
-        unsafe {
-            self.device
-                .raw
-                .cmd_bind_vertex_buffers(self.raw, 0, &[vertices.raw], &[0])
-        };
+        unsafe { self.device.raw.cmd_bind_vertex_buffers(self.raw, 0, &[vertices.raw], &[0]) };
         // SAFETY: as above.
-        unsafe {
-            self.device
-                .raw
-                .cmd_bind_index_buffer(self.raw, triangles.raw, 0, vk::IndexType::UINT32)
-        };
+        unsafe { self.device.raw.cmd_bind_index_buffer(self.raw, triangles.raw, 0, vk::IndexType::UINT32) };
     }
 
     /// Draws triangles `first..first + count` of the bound ones.
     pub fn draw_triangles(&mut self, first: u32, count: u32) {
         // SAFETY: the range lies in the index buffer, as the scene's draws say.
-        unsafe {
-            self.device
-                .raw
-                .cmd_draw_indexed(self.raw, 3 * count, 1, 3 * first, 0, 0)
-        };
+        unsafe { self.device.raw.cmd_draw_indexed(self.raw, 3 * count, 1, 3 * first, 0, 0) };
     }
 
     /// Draws one triangle over the whole target.
@@ -192,10 +148,7 @@ impl Commands {
         let clears = [vk::ClearValue::default(); 8];
         let area = vk::Rect2D {
             offset: vk::Offset2D::default(),
-            extent: vk::Extent2D {
-                width: framebuffer.size[0],
-                height: framebuffer.size[1],
-            },
+            extent: vk::Extent2D { width: framebuffer.size[0], height: framebuffer.size[1] },
         };
         let info = vk::RenderPassBeginInfo::default()
             .render_pass(pass.raw)
@@ -203,20 +156,9 @@ impl Commands {
             .render_area(area)
             .clear_values(&clears);
         // SAFETY: pass and framebuffer are alive and compatible.
-        unsafe {
-            self.device
-                .raw
-                .cmd_begin_render_pass(self.raw, &info, vk::SubpassContents::INLINE)
-        };
+        unsafe { self.device.raw.cmd_begin_render_pass(self.raw, &info, vk::SubpassContents::INLINE) };
         let [width, height] = framebuffer.size.map(|side| side as f32);
-        let viewport = vk::Viewport {
-            x: 0.0,
-            y: 0.0,
-            width,
-            height,
-            min_depth: 0.0,
-            max_depth: 1.0,
-        };
+        let viewport = vk::Viewport { x: 0.0, y: 0.0, width, height, min_depth: 0.0, max_depth: 1.0 };
         // SAFETY: viewport and scissor are dynamic in every pipeline.
         unsafe { self.device.raw.cmd_set_viewport(self.raw, 0, &[viewport]) };
         // SAFETY: as above.
@@ -226,11 +168,7 @@ impl Commands {
     /// Goes on to the next subpass.
     pub fn next_subpass(&mut self) {
         // SAFETY: inside a render pass with a further subpass.
-        unsafe {
-            self.device
-                .raw
-                .cmd_next_subpass(self.raw, vk::SubpassContents::INLINE)
-        };
+        unsafe { self.device.raw.cmd_next_subpass(self.raw, vk::SubpassContents::INLINE) };
     }
 
     /// Ends the render pass.

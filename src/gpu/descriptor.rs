@@ -50,33 +50,21 @@ impl SetLayout {
                     .binding(row.binding)
                     .descriptor_type(kind(row.kind))
                     .descriptor_count(row.count)
-                    .stage_flags(if fragment {
-                        vk::ShaderStageFlags::FRAGMENT
-                    } else {
-                        STAGES
-                    })
+                    .stage_flags(if fragment { vk::ShaderStageFlags::FRAGMENT } else { STAGES })
             })
             .collect();
         let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&rows);
         // SAFETY: binding numbers are unique, as the tests of the shared tables show.
         let raw = unsafe { device.raw.create_descriptor_set_layout(&info, None) }
             .called("vkCreateDescriptorSetLayout")?;
-        Ok(Self {
-            raw,
-            bindings,
-            device: device.clone(),
-        })
+        Ok(Self { raw, bindings, device: device.clone() })
     }
 }
 
 impl Drop for SetLayout {
     fn drop(&mut self) {
         // SAFETY: layouts may go before the pipelines made with them.
-        unsafe {
-            self.device
-                .raw
-                .destroy_descriptor_set_layout(self.raw, None)
-        };
+        unsafe { self.device.raw.destroy_descriptor_set_layout(self.raw, None) };
     }
 }
 
@@ -93,27 +81,15 @@ impl PipelineLayout {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(device: &Arc<Device>, sets: &[&'static [Binding]]) -> Result<Self> {
-        let sets = sets
-            .iter()
-            .map(|bindings| SetLayout::new(device, bindings))
-            .collect::<Result<Vec<_>>>()?;
+        let sets =
+            sets.iter().map(|bindings| SetLayout::new(device, bindings)).collect::<Result<Vec<_>>>()?;
         let raws: Vec<_> = sets.iter().map(|set| set.raw).collect();
-        let push = [vk::PushConstantRange {
-            stage_flags: STAGES,
-            offset: 0,
-            size: PUSH_BYTES,
-        }];
-        let info = vk::PipelineLayoutCreateInfo::default()
-            .set_layouts(&raws)
-            .push_constant_ranges(&push);
+        let push = [vk::PushConstantRange { stage_flags: STAGES, offset: 0, size: PUSH_BYTES }];
+        let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&raws).push_constant_ranges(&push);
         // SAFETY: at most 4 sets and 128 bytes, as the device's table asks for.
-        let raw = unsafe { device.raw.create_pipeline_layout(&info, None) }
-            .called("vkCreatePipelineLayout")?;
-        Ok(Self {
-            raw,
-            sets,
-            device: device.clone(),
-        })
+        let raw =
+            unsafe { device.raw.create_pipeline_layout(&info, None) }.called("vkCreatePipelineLayout")?;
+        Ok(Self { raw, sets, device: device.clone() })
     }
 
     /// `count` sets of the layout's set number `index`, descriptors unwritten.
@@ -157,26 +133,17 @@ impl DescriptorSets {
                 descriptor_count: row.count * count.max(1),
             })
             .collect();
-        let info = vk::DescriptorPoolCreateInfo::default()
-            .pool_sizes(&sizes)
-            .max_sets(count.max(1));
+        let info = vk::DescriptorPoolCreateInfo::default().pool_sizes(&sizes).max_sets(count.max(1));
         // SAFETY: sizes are not empty.
-        let pool = unsafe { device.raw.create_descriptor_pool(&info, None) }
-            .called("vkCreateDescriptorPool")?;
-        let mut sets = Self {
-            pool,
-            sets: Vec::new(),
-            bindings: layout.bindings,
-            device: device.clone(),
-        };
+        let pool =
+            unsafe { device.raw.create_descriptor_pool(&info, None) }.called("vkCreateDescriptorPool")?;
+        let mut sets = Self { pool, sets: Vec::new(), bindings: layout.bindings, device: device.clone() };
         if count > 0 {
             let layouts = vec![layout.raw; count as usize];
-            let info = vk::DescriptorSetAllocateInfo::default()
-                .descriptor_pool(pool)
-                .set_layouts(&layouts);
+            let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
             // SAFETY: the pool was sized for this many sets.
-            sets.sets = unsafe { device.raw.allocate_descriptor_sets(&info) }
-                .called("vkAllocateDescriptorSets")?;
+            sets.sets =
+                unsafe { device.raw.allocate_descriptor_sets(&info) }.called("vkAllocateDescriptorSets")?;
         }
         Ok(sets)
     }
@@ -184,10 +151,7 @@ impl DescriptorSets {
     /// Set number `index`.
     #[must_use]
     pub fn get(&self, index: usize) -> DescriptorSet<'_> {
-        DescriptorSet {
-            raw: self.sets[index],
-            owner: self,
-        }
+        DescriptorSet { raw: self.sets[index], owner: self }
     }
 }
 
@@ -200,48 +164,28 @@ impl Drop for DescriptorSets {
 
 impl DescriptorSet<'_> {
     fn kind(&self, binding: u32) -> vk::DescriptorType {
-        let row = self
-            .owner
-            .bindings
-            .iter()
-            .find(|row| row.binding == binding);
+        let row = self.owner.bindings.iter().find(|row| row.binding == binding);
         row.map_or(vk::DescriptorType::STORAGE_BUFFER, |row| kind(row.kind))
     }
 
     fn write(&self, write: vk::WriteDescriptorSet<'_>, binding: u32) {
-        let write = write
-            .dst_set(self.raw)
-            .dst_binding(binding)
-            .descriptor_type(self.kind(binding));
+        let write = write.dst_set(self.raw).dst_binding(binding).descriptor_type(self.kind(binding));
         // SAFETY: the set is not in use while it is written; its resources are kept by whoever binds it.
         unsafe { self.owner.device.raw.update_descriptor_sets(&[write], &[]) };
     }
 
     /// A whole buffer.
     pub fn buffer<T: Pod>(&self, binding: u32, buffer: &Buffer<T>) {
-        let info = [vk::DescriptorBufferInfo {
-            buffer: buffer.raw,
-            offset: 0,
-            range: vk::WHOLE_SIZE,
-        }];
-        self.write(
-            vk::WriteDescriptorSet::default().buffer_info(&info),
-            binding,
-        );
+        let info = [vk::DescriptorBufferInfo { buffer: buffer.raw, offset: 0, range: vk::WHOLE_SIZE }];
+        self.write(vk::WriteDescriptorSet::default().buffer_info(&info), binding);
     }
 
     /// One element of a buffer.
     pub fn element<T: Pod>(&self, binding: u32, buffer: &Buffer<T>, index: usize) {
         let range = size_of::<T>() as vk::DeviceSize;
-        let info = [vk::DescriptorBufferInfo {
-            buffer: buffer.raw,
-            offset: index as vk::DeviceSize * range,
-            range,
-        }];
-        self.write(
-            vk::WriteDescriptorSet::default().buffer_info(&info),
-            binding,
-        );
+        let info =
+            [vk::DescriptorBufferInfo { buffer: buffer.raw, offset: index as vk::DeviceSize * range, range }];
+        self.write(vk::WriteDescriptorSet::default().buffer_info(&info), binding);
     }
 
     /// An image in the layout of a use.
@@ -264,9 +208,6 @@ impl DescriptorSet<'_> {
                 image_layout: Use::Texture.layout(),
             })
             .collect();
-        self.write(
-            vk::WriteDescriptorSet::default().image_info(&infos),
-            binding,
-        );
+        self.write(vk::WriteDescriptorSet::default().image_info(&infos), binding);
     }
 }

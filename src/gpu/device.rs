@@ -82,17 +82,10 @@ impl Device {
     /// [`Error::NoDevice`] without a loader.
     pub fn enumerate() -> Result<Vec<DeviceInfo>> {
         let instance = Instance::new(false, &[])?;
-        Ok(candidates(&instance, None)?
-            .into_iter()
-            .map(|candidate| candidate.info)
-            .collect())
+        Ok(candidates(&instance, None)?.into_iter().map(|candidate| candidate.info).collect())
     }
 
-    fn create(
-        instance: Arc<Instance>,
-        chosen: Candidate,
-        extensions: &[&'static CStr],
-    ) -> Result<Self> {
+    fn create(instance: Arc<Instance>, chosen: Candidate, extensions: &[&'static CStr]) -> Result<Self> {
         let extensions: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
         let priorities = [1.0];
         let queues = [vk::DeviceQueueCreateInfo::default()
@@ -109,19 +102,16 @@ impl Device {
             .enabled_extension_names(&extensions)
             .enabled_features(&features);
         // SAFETY: the queue family exists, and only supported features and extensions are turned on.
-        let raw = unsafe { instance.raw.create_device(chosen.physical, &info, None) }
-            .called("vkCreateDevice")?;
+        let raw =
+            unsafe { instance.raw.create_device(chosen.physical, &info, None) }.called("vkCreateDevice")?;
         // SAFETY: queue 0 of the family was asked for above.
         let queue = unsafe { raw.get_device_queue(chosen.family, 0) };
         let pool_info = vk::CommandPoolCreateInfo::default()
             .queue_family_index(chosen.family)
             .flags(vk::CommandPoolCreateFlags::TRANSIENT);
         // SAFETY: as above.
-        let pool =
-            unsafe { raw.create_command_pool(&pool_info, None) }.called("vkCreateCommandPool")?;
-        let debug = instance
-            .debug_utils
-            .then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw));
+        let pool = unsafe { raw.create_command_pool(&pool_info, None) }.called("vkCreateCommandPool")?;
+        let debug = instance.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw));
         let memory = Memory::new(&instance.raw, &raw, chosen.physical)?;
         Ok(Self {
             memory,
@@ -172,10 +162,7 @@ impl Device {
     pub fn require_silence(&self) -> Result<()> {
         match self.validation_messages().unwrap_or_default() {
             messages if messages.is_empty() => Ok(()),
-            messages => Err(Error::Validation {
-                count: messages.len(),
-                first: messages[0].clone(),
-            }),
+            messages => Err(Error::Validation { count: messages.len(), first: messages[0].clone() }),
         }
     }
 
@@ -189,12 +176,10 @@ impl Device {
         record: impl FnOnce(&mut Commands) -> Result<T>,
     ) -> Result<T> {
         let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
-        let info = vk::CommandBufferAllocateInfo::default()
-            .command_pool(self.pool)
-            .command_buffer_count(1);
+        let info = vk::CommandBufferAllocateInfo::default().command_pool(self.pool).command_buffer_count(1);
         // SAFETY: the pool belongs to this device, and this thread has the turn.
-        let buffers = unsafe { self.raw.allocate_command_buffers(&info) }
-            .called("vkAllocateCommandBuffers")?;
+        let buffers =
+            unsafe { self.raw.allocate_command_buffers(&info) }.called("vkAllocateCommandBuffers")?;
         let result = Commands::record(self, buffers[0], name, record).and_then(|value| {
             self.submit_and_wait(buffers[0])?;
             Ok(value)
@@ -208,11 +193,7 @@ impl Device {
         let buffers = [buffer];
         let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
         // SAFETY: the buffer is fully recorded, and is not resubmitted.
-        unsafe {
-            self.raw
-                .queue_submit(self.queue, &submits, vk::Fence::null())
-        }
-        .called("vkQueueSubmit")?;
+        unsafe { self.raw.queue_submit(self.queue, &submits, vk::Fence::null()) }.called("vkQueueSubmit")?;
         // SAFETY: this thread has the turn.
         unsafe { self.raw.queue_wait_idle(self.queue) }.called("vkQueueWaitIdle")
     }
@@ -234,9 +215,7 @@ impl Device {
         let (Some(debug), Ok(name)) = (&self.debug, std::ffi::CString::new(name)) else {
             return;
         };
-        let info = vk::DebugUtilsObjectNameInfoEXT::default()
-            .object_handle(handle)
-            .object_name(&name);
+        let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
         // SAFETY: the handle is alive. A name that cannot be set is no reason to stop.
         let _ = unsafe { debug.set_debug_utils_object_name(&info) };
     }

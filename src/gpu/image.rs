@@ -43,32 +43,16 @@ impl Image {
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, description: &ImageDescription<'_>) -> Result<Self> {
-        let &ImageDescription {
-            name,
-            format,
-            size,
-            layers,
-            mips,
-            uses,
-        } = description;
+        let &ImageDescription { name, format, size, layers, mips, uses } = description;
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
-            .extent(vk::Extent3D {
-                width: size[0],
-                height: size[1],
-                depth: 1,
-            })
+            .extent(vk::Extent3D { width: size[0], height: size[1], depth: 1 })
             .mip_levels(mips)
             .array_layers(layers.unwrap_or(1))
             .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
-            .usage(
-                uses.iter()
-                    .fold(vk::ImageUsageFlags::empty(), |flags, &used| {
-                        flags | usage(used)
-                    }),
-            );
+            .usage(uses.iter().fold(vk::ImageUsageFlags::empty(), |flags, &used| flags | usage(used)));
         // SAFETY: format and limits were checked against the device's table, sizes against the scene's.
         let raw = unsafe { device.raw.create_image(&info, None) }.called("vkCreateImage")?;
         let mut image = Self {
@@ -82,19 +66,15 @@ impl Image {
             device: device.clone(),
         };
         image.allocation = Some(device.allocate_for_image(name, raw)?);
-        let kind = if layers.is_some() {
-            vk::ImageViewType::TYPE_2D_ARRAY
-        } else {
-            vk::ImageViewType::TYPE_2D
-        };
+        let kind =
+            if layers.is_some() { vk::ImageViewType::TYPE_2D_ARRAY } else { vk::ImageViewType::TYPE_2D };
         let view = vk::ImageViewCreateInfo::default()
             .image(raw)
             .view_type(kind)
             .format(format)
             .subresource_range(image.everything());
         // SAFETY: the view covers the image it is made of.
-        image.view =
-            unsafe { device.raw.create_image_view(&view, None) }.called("vkCreateImageView")?;
+        image.view = unsafe { device.raw.create_image_view(&view, None) }.called("vkCreateImageView")?;
         device.name(raw, name);
         device.name(image.view, name);
         Ok(image)
@@ -133,11 +113,7 @@ impl Image {
                 base_array_layer: 0,
                 layer_count: self.layers,
             },
-            image_extent: vk::Extent3D {
-                width: (self.size[0] >> mip).max(1),
-                height: rows,
-                depth: 1,
-            },
+            image_extent: vk::Extent3D { width: (self.size[0] >> mip).max(1), height: rows, depth: 1 },
             ..vk::BufferImageCopy::default()
         }
     }
@@ -214,17 +190,13 @@ impl Drop for Image {
 
 fn usage(used: Use) -> vk::ImageUsageFlags {
     match used {
-        Use::Nothing | Use::HostRead | Use::IndirectRead | Use::Present => {
-            vk::ImageUsageFlags::empty()
-        }
+        Use::Nothing | Use::HostRead | Use::IndirectRead | Use::Present => vk::ImageUsageFlags::empty(),
         Use::TransferWrite => vk::ImageUsageFlags::TRANSFER_DST,
         Use::TransferRead => vk::ImageUsageFlags::TRANSFER_SRC,
         Use::ComputeWrite => vk::ImageUsageFlags::STORAGE,
         Use::ComputeRead | Use::FragmentRead | Use::Texture => vk::ImageUsageFlags::SAMPLED,
         Use::DepthWrite | Use::DepthTest => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
-        Use::DepthRead => {
-            vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED
-        }
+        Use::DepthRead => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
         Use::ColorWrite => vk::ImageUsageFlags::COLOR_ATTACHMENT,
         Use::InputRead => vk::ImageUsageFlags::INPUT_ATTACHMENT,
     }

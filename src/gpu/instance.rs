@@ -14,17 +14,11 @@ pub(super) struct ValidationLog(Mutex<Vec<String>>);
 
 impl ValidationLog {
     pub(super) fn messages(&self) -> Vec<String> {
-        self.0
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .clone()
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     fn push(&self, message: String) {
-        self.0
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .push(message);
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(message);
     }
 }
 
@@ -44,8 +38,7 @@ impl Instance {
         // SAFETY: the loader's library is trusted to be Vulkan's; it stays loaded as long as `Instance`.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoDevice {
             cause: format!("the Vulkan loader cannot be loaded ({error})"),
-            remedy: "run ./setup, or install libvulkan1 and a driver such as mesa-vulkan-drivers"
-                .into(),
+            remedy: "run ./setup, or install libvulkan1 and a driver such as mesa-vulkan-drivers".into(),
         })?;
         let found = available_extensions(&entry)?;
         let debug_utils = has(&found, ash::ext::debug_utils::NAME);
@@ -58,13 +51,7 @@ impl Instance {
         let mut wanted = extensions.to_vec();
         wanted.extend(debug_utils.then_some(ash::ext::debug_utils::NAME));
         let raw = create(&entry, validate, &wanted)?;
-        let mut instance = Self {
-            raw,
-            log: None,
-            debug_utils,
-            messenger: None,
-            entry,
-        };
+        let mut instance = Self { raw, log: None, debug_utils, messenger: None, entry };
         if validate {
             instance.listen()?;
         }
@@ -76,8 +63,7 @@ impl Instance {
         let loader = ash::ext::debug_utils::Instance::new(&self.entry, &self.raw);
         let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
             .message_severity(
-                vk::DebugUtilsMessageSeverityFlagsEXT::ERROR
-                    | vk::DebugUtilsMessageSeverityFlagsEXT::WARNING,
+                vk::DebugUtilsMessageSeverityFlagsEXT::ERROR | vk::DebugUtilsMessageSeverityFlagsEXT::WARNING,
             )
             // Not PERFORMANCE: that a shared vertex module writes more than a fragment shader reads is on purpose.
             .message_type(vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION)
@@ -112,9 +98,8 @@ fn create(entry: &ash::Entry, validate: bool, extensions: &[&CStr]) -> Result<as
     let extensions: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
     let enabled = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
-    let mut info = vk::InstanceCreateInfo::default()
-        .application_info(&application)
-        .enabled_extension_names(&extensions);
+    let mut info =
+        vk::InstanceCreateInfo::default().application_info(&application).enabled_extension_names(&extensions);
     if validate {
         info = info.enabled_layer_names(&layers).push_next(&mut features);
     }
@@ -133,17 +118,12 @@ fn available_extensions(entry: &ash::Entry) -> Result<Vec<vk::ExtensionPropertie
 
 /// Whether an extension is among those found.
 pub(super) fn has(found: &[vk::ExtensionProperties], name: &CStr) -> bool {
-    found
-        .iter()
-        .any(|extension| extension.extension_name_as_c_str() == Ok(name))
+    found.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name))
 }
 
 fn missing_extension(name: &CStr) -> Error {
     Error::NoDevice {
-        cause: format!(
-            "no Vulkan driver of the machine has {}",
-            name.to_string_lossy()
-        ),
+        cause: format!("no Vulkan driver of the machine has {}", name.to_string_lossy()),
         remedy: "update the driver, or install mesa-vulkan-drivers".into(),
     }
 }
@@ -152,10 +132,7 @@ fn require_validation(entry: &ash::Entry) -> Result<()> {
     // SAFETY: the loader fills an array that ash owns.
     let layers = unsafe { entry.enumerate_instance_layer_properties() }
         .called("vkEnumerateInstanceLayerProperties")?;
-    if layers
-        .iter()
-        .any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER))
-    {
+    if layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER)) {
         return Ok(());
     }
     Err(Error::usage(
@@ -177,9 +154,7 @@ unsafe extern "system" fn on_message(
     // SAFETY: see above; `p_message` is a terminated string.
     let text: *const c_char = unsafe { (*data).p_message };
     // SAFETY: see above.
-    let text = unsafe { CStr::from_ptr(text) }
-        .to_string_lossy()
-        .into_owned();
+    let text = unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned();
     log.push(text);
     vk::FALSE
 }

@@ -54,16 +54,10 @@ fn failed(call: impl Into<String>, result: vk::Result) -> Error {
         vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
             "render a smaller picture or fewer lights, or free memory"
         }
-        vk::Result::ERROR_DEVICE_LOST => {
-            "update the driver, or choose another device with --device"
-        }
+        vk::Result::ERROR_DEVICE_LOST => "update the driver, or choose another device with --device",
         _ => "run again with --validate, and report what it says",
     };
-    Error::Vulkan {
-        call: call.into(),
-        result: format!("{result:?}"),
-        remedy: remedy.into(),
-    }
+    Error::Vulkan { call: call.into(), result: format!("{result:?}"), remedy: remedy.into() }
 }
 
 /// Attaches the call's name to a raw result.

@@ -34,19 +34,9 @@ impl Specialization {
     fn entries(&self) -> (Vec<vk::SpecializationMapEntry>, Vec<u8>) {
         let entries = (0_u32..)
             .zip(&self.0)
-            .map(|(i, &(id, _))| vk::SpecializationMapEntry {
-                constant_id: id,
-                offset: 4 * i,
-                size: 4,
-            })
+            .map(|(i, &(id, _))| vk::SpecializationMapEntry { constant_id: id, offset: 4 * i, size: 4 })
             .collect();
-        (
-            entries,
-            self.0
-                .iter()
-                .flat_map(|&(_, value)| value.to_ne_bytes())
-                .collect(),
-        )
+        (entries, self.0.iter().flat_map(|&(_, value)| value.to_ne_bytes()).collect())
     }
 }
 
@@ -130,25 +120,14 @@ impl ComputePipeline {
     ) -> Result<Self> {
         let module = Module::new(device, shader)?;
         let (entries, data) = specialization.entries();
-        let constants = vk::SpecializationInfo::default()
-            .map_entries(&entries)
-            .data(&data);
-        let info = [vk::ComputePipelineCreateInfo::default()
-            .stage(module.stage(&constants))
-            .layout(layout.raw)];
+        let constants = vk::SpecializationInfo::default().map_entries(&entries).data(&data);
+        let info =
+            [vk::ComputePipelineCreateInfo::default().stage(module.stage(&constants)).layout(layout.raw)];
         // SAFETY: module and layout are alive; the shader's bindings come from the layout's tables.
-        let raws = unsafe {
-            device
-                .raw
-                .create_compute_pipelines(vk::PipelineCache::null(), &info, None)
-        }
-        .map_err(|(_, result)| super::failed(format!("pipeline {}", shader.name), result))?;
+        let raws = unsafe { device.raw.create_compute_pipelines(vk::PipelineCache::null(), &info, None) }
+            .map_err(|(_, result)| super::failed(format!("pipeline {}", shader.name), result))?;
         device.name(raws[0], shader.name);
-        Ok(Self {
-            raw: raws[0],
-            layout: layout.clone(),
-            device: device.clone(),
-        })
+        Ok(Self { raw: raws[0], layout: layout.clone(), device: device.clone() })
     }
 }
 
@@ -163,18 +142,11 @@ impl GraphicsPipeline {
         description: &GraphicsDescription<'_>,
     ) -> Result<Self> {
         let vertex = Module::new(device, description.vertex)?;
-        let fragment = description
-            .fragment
-            .map(|shader| Module::new(device, shader))
-            .transpose()?;
+        let fragment = description.fragment.map(|shader| Module::new(device, shader)).transpose()?;
         let (entries, data) = description.specialization.entries();
-        let constants = vk::SpecializationInfo::default()
-            .map_entries(&entries)
-            .data(&data);
-        let stages: Vec<_> = std::iter::once(&vertex)
-            .chain(&fragment)
-            .map(|module| module.stage(&constants))
-            .collect();
+        let constants = vk::SpecializationInfo::default().map_entries(&entries).data(&data);
+        let stages: Vec<_> =
+            std::iter::once(&vertex).chain(&fragment).map(|module| module.stage(&constants)).collect();
         let binding = [vk::VertexInputBindingDescription {
             binding: 0,
             stride: size_of::<Vertex>() as u32,
@@ -182,22 +154,17 @@ impl GraphicsPipeline {
         }];
         let mut input = vk::PipelineVertexInputStateCreateInfo::default();
         if description.vertices {
-            input = input
-                .vertex_binding_descriptions(&binding)
-                .vertex_attribute_descriptions(&ATTRIBUTES);
+            input = input.vertex_binding_descriptions(&binding).vertex_attribute_descriptions(&ATTRIBUTES);
         }
         let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
             .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-        let viewport = vk::PipelineViewportStateCreateInfo::default()
-            .viewport_count(1)
-            .scissor_count(1);
+        let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let raster = rasterization(description.cull);
         let samples = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(vk::SampleCountFlags::TYPE_1);
         let depth = depth_state(description.depth);
         let attachment = description.blend.map(blend_state);
-        let blend =
-            vk::PipelineColorBlendStateCreateInfo::default().attachments(attachment.as_slice());
+        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(attachment.as_slice());
         let dynamic = vk::PipelineDynamicStateCreateInfo::default()
             .dynamic_states(&[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR]);
         let info = [vk::GraphicsPipelineCreateInfo::default()
@@ -214,47 +181,22 @@ impl GraphicsPipeline {
             .render_pass(description.pass.raw)
             .subpass(description.subpass)];
         // SAFETY: everything `info` points to outlives the call.
-        let raws = unsafe {
-            device
-                .raw
-                .create_graphics_pipelines(vk::PipelineCache::null(), &info, None)
-        }
-        .map_err(|(_, result)| super::failed(format!("pipeline {}", description.name), result))?;
+        let raws = unsafe { device.raw.create_graphics_pipelines(vk::PipelineCache::null(), &info, None) }
+            .map_err(|(_, result)| super::failed(format!("pipeline {}", description.name), result))?;
         device.name(raws[0], description.name);
-        Ok(Self {
-            raw: raws[0],
-            layout: layout.clone(),
-            device: device.clone(),
-        })
+        Ok(Self { raw: raws[0], layout: layout.clone(), device: device.clone() })
     }
 }
 
 const ATTRIBUTES: [vk::VertexInputAttributeDescription; 4] = [
-    attribute(
-        0,
-        vk::Format::R32G32B32_SFLOAT,
-        offset_of!(Vertex, position),
-    ),
+    attribute(0, vk::Format::R32G32B32_SFLOAT, offset_of!(Vertex, position)),
     attribute(1, vk::Format::R32G32B32_SFLOAT, offset_of!(Vertex, normal)),
-    attribute(
-        2,
-        vk::Format::R32G32B32A32_SFLOAT,
-        offset_of!(Vertex, tangent),
-    ),
+    attribute(2, vk::Format::R32G32B32A32_SFLOAT, offset_of!(Vertex, tangent)),
     attribute(3, vk::Format::R32G32_SFLOAT, offset_of!(Vertex, uv)),
 ];
 
-const fn attribute(
-    location: u32,
-    format: vk::Format,
-    offset: usize,
-) -> vk::VertexInputAttributeDescription {
-    vk::VertexInputAttributeDescription {
-        location,
-        binding: 0,
-        format,
-        offset: offset as u32,
-    }
+const fn attribute(location: u32, format: vk::Format, offset: usize) -> vk::VertexInputAttributeDescription {
+    vk::VertexInputAttributeDescription { location, binding: 0, format, offset: offset as u32 }
 }
 
 fn rasterization(cull: Cull) -> vk::PipelineRasterizationStateCreateInfo<'static> {
@@ -272,19 +214,16 @@ fn depth_state(test: DepthTest) -> vk::PipelineDepthStencilStateCreateInfo<'stat
     let state = vk::PipelineDepthStencilStateCreateInfo::default();
     match test {
         DepthTest::Off => state,
-        DepthTest::WriteNearest => state
-            .depth_test_enable(true)
-            .depth_write_enable(true)
-            .depth_compare_op(vk::CompareOp::GREATER),
-        DepthTest::Equal => state
-            .depth_test_enable(true)
-            .depth_compare_op(vk::CompareOp::EQUAL),
+        DepthTest::WriteNearest => {
+            state.depth_test_enable(true).depth_write_enable(true).depth_compare_op(vk::CompareOp::GREATER)
+        }
+        DepthTest::Equal => state.depth_test_enable(true).depth_compare_op(vk::CompareOp::EQUAL),
     }
 }
 
 fn blend_state(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
-    let state = vk::PipelineColorBlendAttachmentState::default()
-        .color_write_mask(vk::ColorComponentFlags::RGBA);
+    let state =
+        vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA);
     match blend {
         Blend::Replace => state,
         Blend::Add => state
@@ -322,19 +261,11 @@ impl Module {
         let words = shader.words();
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
         // SAFETY: the words are SPIR-V that shaderc made for Vulkan 1.2.
-        let raw = unsafe { device.raw.create_shader_module(&info, None) }
-            .called("vkCreateShaderModule")?;
-        Ok(Self {
-            raw,
-            shader,
-            device: device.clone(),
-        })
+        let raw = unsafe { device.raw.create_shader_module(&info, None) }.called("vkCreateShaderModule")?;
+        Ok(Self { raw, shader, device: device.clone() })
     }
 
-    fn stage<'a>(
-        &self,
-        constants: &'a vk::SpecializationInfo<'a>,
-    ) -> vk::PipelineShaderStageCreateInfo<'a> {
+    fn stage<'a>(&self, constants: &'a vk::SpecializationInfo<'a>) -> vk::PipelineShaderStageCreateInfo<'a> {
         vk::PipelineShaderStageCreateInfo::default()
             .stage(self.shader.stage.flags())
             .module(self.raw)

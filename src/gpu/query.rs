@@ -29,11 +29,7 @@ impl Timestamps {
             // SAFETY: the count is not 0.
             Some(unsafe { device.raw.create_query_pool(&info, None) }.called("vkCreateQueryPool")?)
         };
-        Ok(Self {
-            pool,
-            count,
-            device: device.clone(),
-        })
+        Ok(Self { pool, count, device: device.clone() })
     }
 
     /// Milliseconds between neighbouring timestamps of finished work; `None` where the device has none.
@@ -58,10 +54,7 @@ impl Timestamps {
         let mask = u64::MAX >> (64 - self.device.timestamp_bits.clamp(1, 64));
         let period = f64::from(self.device.timestamp_period) * 1e-6;
         Ok(Some(
-            ticks
-                .windows(2)
-                .map(|pair| (pair[1].wrapping_sub(pair[0]) & mask) as f64 * period)
-                .collect(),
+            ticks.windows(2).map(|pair| (pair[1].wrapping_sub(pair[0]) & mask) as f64 * period).collect(),
         ))
     }
 }
@@ -80,11 +73,7 @@ impl Commands {
     pub fn reset_timestamps(&mut self, timestamps: &Timestamps) {
         if let Some(pool) = timestamps.pool {
             // SAFETY: the range is the whole pool.
-            unsafe {
-                self.device
-                    .raw
-                    .cmd_reset_query_pool(self.raw, pool, 0, timestamps.count)
-            };
+            unsafe { self.device.raw.cmd_reset_query_pool(self.raw, pool, 0, timestamps.count) };
         }
     }
 

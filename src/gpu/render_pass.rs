@@ -56,8 +56,7 @@ impl RenderPass {
         let mut dependencies: Vec<_> = (0_u32..)
             .zip(inside)
             .map(|(from, &(before, after))| {
-                dependency(from, from + 1, before, after)
-                    .dependency_flags(vk::DependencyFlags::BY_REGION)
+                dependency(from, from + 1, before, after).dependency_flags(vk::DependencyFlags::BY_REGION)
             })
             .collect();
         dependencies.extend(outside.iter().map(|edge| match *edge {
@@ -69,13 +68,9 @@ impl RenderPass {
             .subpasses(&subpass_infos)
             .dependencies(&dependencies);
         // SAFETY: every index names an attachment or subpass given above, as validation checks in tests.
-        let raw =
-            unsafe { device.raw.create_render_pass(&info, None) }.called("vkCreateRenderPass")?;
+        let raw = unsafe { device.raw.create_render_pass(&info, None) }.called("vkCreateRenderPass")?;
         device.name(raw, name);
-        Ok(Self {
-            raw,
-            device: device.clone(),
-        })
+        Ok(Self { raw, device: device.clone() })
     }
 }
 
@@ -100,11 +95,7 @@ fn describe(attachment: &Attachment) -> vk::AttachmentDescription {
     vk::AttachmentDescription::default()
         .format(attachment.format)
         .samples(vk::SampleCountFlags::TYPE_1)
-        .load_op(if fresh {
-            vk::AttachmentLoadOp::CLEAR
-        } else {
-            vk::AttachmentLoadOp::LOAD
-        })
+        .load_op(if fresh { vk::AttachmentLoadOp::CLEAR } else { vk::AttachmentLoadOp::LOAD })
         .store_op(vk::AttachmentStoreOp::STORE)
         .stencil_load_op(vk::AttachmentLoadOp::DONT_CARE)
         .stencil_store_op(vk::AttachmentStoreOp::DONT_CARE)
@@ -133,8 +124,7 @@ struct References {
 
 impl References {
     fn new(subpass: &Subpass<'_>) -> Self {
-        let all =
-            |indices: &[u32], used: Use| indices.iter().map(|&i| reference(i, used)).collect();
+        let all = |indices: &[u32], used: Use| indices.iter().map(|&i| reference(i, used)).collect();
         Self {
             color: all(subpass.color, Use::ColorWrite),
             input: all(subpass.input, Use::InputRead),
@@ -155,10 +145,7 @@ impl References {
 }
 
 fn reference(attachment: u32, used: Use) -> vk::AttachmentReference {
-    vk::AttachmentReference {
-        attachment,
-        layout: used.layout(),
-    }
+    vk::AttachmentReference { attachment, layout: used.layout() }
 }
 
 /// Images bound to a render pass.
@@ -183,13 +170,8 @@ impl Framebuffer {
             .height(size[1])
             .layers(1);
         // SAFETY: formats and sizes fit the pass, as validation checks in tests.
-        let raw =
-            unsafe { device.raw.create_framebuffer(&info, None) }.called("vkCreateFramebuffer")?;
-        Ok(Self {
-            raw,
-            size,
-            device: device.clone(),
-        })
+        let raw = unsafe { device.raw.create_framebuffer(&info, None) }.called("vkCreateFramebuffer")?;
+        Ok(Self { raw, size, device: device.clone() })
     }
 }
 

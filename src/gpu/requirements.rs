@@ -35,32 +35,17 @@ impl Report {
             .0
             .iter()
             .filter(|check| !check.ok)
-            .map(|check| {
-                format!(
-                    "it needs {} ({}), and has {}",
-                    check.name, check.why, check.found
-                )
-            })
+            .map(|check| format!("it needs {} ({}), and has {}", check.name, check.why, check.found))
             .collect();
         (!missing.is_empty()).then(|| missing.join("; "))
     }
 }
 
-type Limit = (
-    &'static str,
-    u64,
-    fn(&vk::PhysicalDeviceLimits) -> u64,
-    &'static str,
-);
+type Limit = (&'static str, u64, fn(&vk::PhysicalDeviceLimits) -> u64, &'static str);
 
 /// Limits above what Vulkan guarantees, or close to it.
 const LIMITS: &[Limit] = &[
-    (
-        "maxBoundDescriptorSets",
-        4,
-        |l| l.max_bound_descriptor_sets.into(),
-        "frame, scene and material sets",
-    ),
+    ("maxBoundDescriptorSets", 4, |l| l.max_bound_descriptor_sets.into(), "frame, scene and material sets"),
     (
         "maxComputeWorkGroupInvocations",
         256,
@@ -73,24 +58,9 @@ const LIMITS: &[Limit] = &[
         |l| l.max_compute_work_group_size[0].into(),
         "the scan of the cluster pass",
     ),
-    (
-        "maxPushConstantsSize",
-        128,
-        |l| l.max_push_constants_size.into(),
-        "per-draw constants",
-    ),
-    (
-        "maxImageArrayLayers",
-        256,
-        |l| l.max_image_array_layers.into(),
-        "light lists in texture arrays",
-    ),
-    (
-        "maxImageDimension2D",
-        4096,
-        |l| l.max_image_dimension2_d.into(),
-        "a million lights in one layer",
-    ),
+    ("maxPushConstantsSize", 128, |l| l.max_push_constants_size.into(), "per-draw constants"),
+    ("maxImageArrayLayers", 256, |l| l.max_image_array_layers.into(), "light lists in texture arrays"),
+    ("maxImageDimension2D", 4096, |l| l.max_image_dimension2_d.into(), "a million lights in one layer"),
     (
         "maxPerStageDescriptorSampledImages",
         16,
@@ -103,20 +73,10 @@ const LIMITS: &[Limit] = &[
         |l| l.max_per_stage_descriptor_storage_buffers.into(),
         "tiles, clusters, counters, pairs and light tree",
     ),
-    (
-        "maxStorageBufferRange",
-        1 << 27,
-        |l| l.max_storage_buffer_range.into(),
-        "cluster and material records",
-    ),
+    ("maxStorageBufferRange", 1 << 27, |l| l.max_storage_buffer_range.into(), "cluster and material records"),
 ];
 
-type FormatRow = (
-    &'static str,
-    vk::Format,
-    vk::FormatFeatureFlags,
-    &'static str,
-);
+type FormatRow = (&'static str, vk::Format, vk::FormatFeatureFlags, &'static str);
 
 const FORMATS: &[FormatRow] = &[
     (
@@ -159,27 +119,13 @@ pub(super) fn check(facts: &Facts<'_>) -> Report {
     let mut rows = vec![api_version(facts), queue(facts)];
     rows.extend(LIMITS.iter().map(|&(name, least, read, why)| {
         let found = read(&facts.properties.limits);
-        Check {
-            name: format!("{name} ≥ {least}"),
-            found: found.to_string(),
-            why,
-            ok: found >= least,
-        }
+        Check { name: format!("{name} ≥ {least}"), found: found.to_string(), why, ok: found >= least }
     }));
     rows.extend(FORMATS.iter().map(|&(name, format, needed, why)| {
         // SAFETY: the device belongs to the instance.
-        let found = unsafe {
-            facts
-                .instance
-                .get_physical_device_format_properties(facts.device, format)
-        };
+        let found = unsafe { facts.instance.get_physical_device_format_properties(facts.device, format) };
         let ok = found.optimal_tiling_features.contains(needed);
-        Check {
-            name: name.into(),
-            found: if ok { "it" } else { "no such use of it" }.into(),
-            why,
-            ok,
-        }
+        Check { name: name.into(), found: if ok { "it" } else { "no such use of it" }.into(), why, ok }
     }));
     Report(rows)
 }

@@ -30,17 +30,12 @@ impl Sampler {
             .max_lod(vk::LOD_CLAMP_NONE);
         // Not on a CPU: lavapipe 22.3.6 blurs magnified texels too (mean error of a textured wall 1.3e-2, without 1.3e-4).
         if let Some(most) = device.max_anisotropy.filter(|_| !device.is_cpu()) {
-            info = info
-                .anisotropy_enable(true)
-                .max_anisotropy(ANISOTROPY.min(most));
+            info = info.anisotropy_enable(true).max_anisotropy(ANISOTROPY.min(most));
         }
         // SAFETY: anisotropy is on only where the feature is.
         let raw = unsafe { device.raw.create_sampler(&info, None) }.called("vkCreateSampler")?;
         device.name(raw, "trilinear repeat");
-        Ok(Self {
-            raw,
-            device: device.clone(),
-        })
+        Ok(Self { raw, device: device.clone() })
     }
 }
 

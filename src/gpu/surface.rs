@@ -47,23 +47,13 @@ impl Device {
 }
 
 impl Surface {
-    fn new(
-        instance: Arc<Instance>,
-        window: Arc<Window>,
-        display: OwnedDisplayHandle,
-    ) -> Result<Self> {
+    fn new(instance: Arc<Instance>, window: Arc<Window>, display: OwnedDisplayHandle) -> Result<Self> {
         let display_handle = display.display_handle().map_err(no_handle)?.as_raw();
         let window_handle = window.window_handle().map_err(no_handle)?.as_raw();
         // SAFETY: the instance has the display's surface extensions. `self` holds instance, window and display, and
         // `Drop` destroys the surface before it lets go of them.
         let raw = unsafe {
-            ash_window::create_surface(
-                &instance.entry,
-                &instance.raw,
-                display_handle,
-                window_handle,
-                None,
-            )
+            ash_window::create_surface(&instance.entry, &instance.raw, display_handle, window_handle, None)
         }
         .called("the window's surface")?;
         Ok(Self {
@@ -76,60 +66,37 @@ impl Surface {
     }
 
     /// A format that the present pass's bytes can be shown in; `None` where there is none.
-    pub(super) fn format(
-        &self,
-        physical: vk::PhysicalDevice,
-    ) -> Result<Option<vk::SurfaceFormatKHR>> {
+    pub(super) fn format(&self, physical: vk::PhysicalDevice) -> Result<Option<vk::SurfaceFormatKHR>> {
         // SAFETY: the device presents to the surface.
-        let found = unsafe {
-            self.loader
-                .get_physical_device_surface_formats(physical, self.raw)
-        }
-        .called("vkGetPhysicalDeviceSurfaceFormatsKHR")?;
+        let found = unsafe { self.loader.get_physical_device_surface_formats(physical, self.raw) }
+            .called("vkGetPhysicalDeviceSurfaceFormatsKHR")?;
         Ok(found.into_iter().find(|offer| {
-            FORMATS.contains(&offer.format)
-                && offer.color_space == vk::ColorSpaceKHR::SRGB_NONLINEAR
+            FORMATS.contains(&offer.format) && offer.color_space == vk::ColorSpaceKHR::SRGB_NONLINEAR
         }))
     }
 
-    pub(super) fn capabilities(
-        &self,
-        physical: vk::PhysicalDevice,
-    ) -> Result<vk::SurfaceCapabilitiesKHR> {
+    pub(super) fn capabilities(&self, physical: vk::PhysicalDevice) -> Result<vk::SurfaceCapabilitiesKHR> {
         // SAFETY: the device presents to the surface.
-        unsafe {
-            self.loader
-                .get_physical_device_surface_capabilities(physical, self.raw)
-        }
-        .called("vkGetPhysicalDeviceSurfaceCapabilitiesKHR")
+        unsafe { self.loader.get_physical_device_surface_capabilities(physical, self.raw) }
+            .called("vkGetPhysicalDeviceSurfaceCapabilitiesKHR")
     }
 
     fn has_swapchains(&self, physical: vk::PhysicalDevice) -> bool {
         // SAFETY: the device belongs to the instance.
-        let found = unsafe {
-            self.instance
-                .raw
-                .enumerate_device_extension_properties(physical)
-        };
+        let found = unsafe { self.instance.raw.enumerate_device_extension_properties(physical) };
         found.is_ok_and(|found| has(&found, khr::swapchain::NAME))
     }
 
     fn takes_copies(&self, physical: vk::PhysicalDevice) -> bool {
-        self.capabilities(physical).is_ok_and(|found| {
-            found
-                .supported_usage_flags
-                .contains(vk::ImageUsageFlags::TRANSFER_DST)
-        })
+        self.capabilities(physical)
+            .is_ok_and(|found| found.supported_usage_flags.contains(vk::ImageUsageFlags::TRANSFER_DST))
     }
 }
 
 impl Presentation for Surface {
     fn presents(&self, physical: vk::PhysicalDevice, family: u32) -> bool {
         // SAFETY: device and surface belong to the instance, and the device has the family.
-        let answer = unsafe {
-            self.loader
-                .get_physical_device_surface_support(physical, family, self.raw)
-        };
+        let answer = unsafe { self.loader.get_physical_device_surface_support(physical, family, self.raw) };
         answer.unwrap_or(false)
     }
 
@@ -145,14 +112,8 @@ impl Presentation for Surface {
         if family.is_some() {
             rows.extend([
                 row("VK_KHR_swapchain", self.has_swapchains(physical)),
-                row(
-                    "a surface with 8-bit UNORM colour",
-                    matches!(self.format(physical), Ok(Some(_))),
-                ),
-                row(
-                    "a surface that can be copied to",
-                    self.takes_copies(physical),
-                ),
+                row("a surface with 8-bit UNORM colour", matches!(self.format(physical), Ok(Some(_)))),
+                row("a surface that can be copied to", self.takes_copies(physical)),
             ]);
         }
         rows
@@ -181,20 +142,14 @@ fn no_handle(error: HandleError) -> Error {
 }
 
 fn no_surface(cause: &str) -> Error {
-    Error::NoDevice {
-        cause: cause.into(),
-        remedy: "open the window on X11 or Wayland".into(),
-    }
+    Error::NoDevice { cause: cause.into(), remedy: "open the window on X11 or Wayland".into() }
 }
 
 /// The window's size where the surface knows it, else the size asked for, within what the surface allows.
 pub(super) fn extent(capabilities: &vk::SurfaceCapabilitiesKHR, window: [u32; 2]) -> [u32; 2] {
-    let [now, least, most] = [
-        capabilities.current_extent,
-        capabilities.min_image_extent,
-        capabilities.max_image_extent,
-    ]
-    .map(|extent| [extent.width, extent.height]);
+    let [now, least, most] =
+        [capabilities.current_extent, capabilities.min_image_extent, capabilities.max_image_extent]
+            .map(|extent| [extent.width, extent.height]);
     if now == [u32::MAX; 2] {
         // A minimised window stays without an area.
         [0, 1].map(|i| match window[i] {
@@ -216,19 +171,12 @@ pub(super) fn image_count(capabilities: &vk::SurfaceCapabilitiesKHR) -> u32 {
 }
 
 /// Opaque where the surface can; otherwise whatever it does.
-pub(super) fn composite_alpha(
-    capabilities: &vk::SurfaceCapabilitiesKHR,
-) -> vk::CompositeAlphaFlagsKHR {
+pub(super) fn composite_alpha(capabilities: &vk::SurfaceCapabilitiesKHR) -> vk::CompositeAlphaFlagsKHR {
     use vk::CompositeAlphaFlagsKHR as Alpha;
-    [
-        Alpha::OPAQUE,
-        Alpha::INHERIT,
-        Alpha::POST_MULTIPLIED,
-        Alpha::PRE_MULTIPLIED,
-    ]
-    .into_iter()
-    .find(|&alpha| capabilities.supported_composite_alpha.contains(alpha))
-    .unwrap_or(Alpha::OPAQUE)
+    [Alpha::OPAQUE, Alpha::INHERIT, Alpha::POST_MULTIPLIED, Alpha::PRE_MULTIPLIED]
+        .into_iter()
+        .find(|&alpha| capabilities.supported_composite_alpha.contains(alpha))
+        .unwrap_or(Alpha::OPAQUE)
 }
 
 #[cfg(test)]
@@ -236,10 +184,7 @@ mod tests {
     use super::*;
 
     fn capabilities(current: u32) -> vk::SurfaceCapabilitiesKHR {
-        let square = |side| vk::Extent2D {
-            width: side,
-            height: side,
-        };
+        let square = |side| vk::Extent2D { width: side, height: side };
         vk::SurfaceCapabilitiesKHR {
             min_image_count: 3,
             max_image_count: 3,

@@ -43,12 +43,8 @@ impl Swapchain {
     /// A swapchain of the device that was opened for the surface, without images; [`Swapchain::resize`] makes them.
     pub(super) fn new(device: &Arc<Device>, surface: Surface) -> Result<Self> {
         // SAFETY: the device is alive.
-        let free = unsafe {
-            device
-                .raw
-                .create_fence(&vk::FenceCreateInfo::default(), None)
-        }
-        .called("vkCreateFence")?;
+        let free = unsafe { device.raw.create_fence(&vk::FenceCreateInfo::default(), None) }
+            .called("vkCreateFence")?;
         Ok(Self {
             raw: vk::SwapchainKHR::null(),
             images: Vec::new(),
@@ -77,20 +73,14 @@ impl Swapchain {
             return Ok(false);
         }
         let Some(format) = self.surface.format(self.device.physical)? else {
-            return Err(failed(
-                "the window's images",
-                vk::Result::ERROR_FORMAT_NOT_SUPPORTED,
-            ));
+            return Err(failed("the window's images", vk::Result::ERROR_FORMAT_NOT_SUPPORTED));
         };
         let info = vk::SwapchainCreateInfoKHR::default()
             .surface(self.surface.raw)
             .min_image_count(image_count(&capabilities))
             .image_format(format.format)
             .image_color_space(format.color_space)
-            .image_extent(vk::Extent2D {
-                width: size[0],
-                height: size[1],
-            })
+            .image_extent(vk::Extent2D { width: size[0], height: size[1] })
             .image_array_layers(1)
             .image_usage(vk::ImageUsageFlags::TRANSFER_DST)
             .image_sharing_mode(vk::SharingMode::EXCLUSIVE)
@@ -100,15 +90,13 @@ impl Swapchain {
             .clipped(true)
             .old_swapchain(self.raw);
         // SAFETY: every value is one that the surface offers; the old swapchain is alive, and replaced only here.
-        let raw =
-            unsafe { self.loader.create_swapchain(&info, None) }.called("vkCreateSwapchainKHR")?;
+        let raw = unsafe { self.loader.create_swapchain(&info, None) }.called("vkCreateSwapchainKHR")?;
         self.destroy();
         self.images.clear();
         self.raw = raw;
         self.size = size;
         // SAFETY: the swapchain is alive.
-        self.images =
-            unsafe { self.loader.get_swapchain_images(raw) }.called("vkGetSwapchainImagesKHR")?;
+        self.images = unsafe { self.loader.get_swapchain_images(raw) }.called("vkGetSwapchainImagesKHR")?;
         self.device.name(raw, "window");
         Ok(true)
     }
@@ -122,10 +110,8 @@ impl Swapchain {
             return Ok(Shown::OutOfDate);
         }
         // SAFETY: the fence is unsignalled, and no other image is held: each is presented before the next is acquired.
-        let acquired = unsafe {
-            self.loader
-                .acquire_next_image(self.raw, PATIENCE, vk::Semaphore::null(), self.free)
-        };
+        let acquired =
+            unsafe { self.loader.acquire_next_image(self.raw, PATIENCE, vk::Semaphore::null(), self.free) };
         let (index, misfit) = match acquired {
             Ok(acquired) => acquired,
             Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => return Ok(Shown::OutOfDate),
@@ -143,8 +129,7 @@ impl Swapchain {
     fn wait_until_free(&self) -> Result<()> {
         let fences = [self.free];
         // SAFETY: the acquisition signals the fence.
-        unsafe { self.device.raw.wait_for_fences(&fences, true, u64::MAX) }
-            .called("vkWaitForFences")?;
+        unsafe { self.device.raw.wait_for_fences(&fences, true, u64::MAX) }.called("vkWaitForFences")?;
         // SAFETY: the fence is signalled, and nothing else uses it.
         unsafe { self.device.raw.reset_fences(&fences) }.called("vkResetFences")
     }
@@ -191,13 +176,9 @@ impl Swapchain {
 
     fn present(&self, index: u32) -> Result<Shown> {
         let (swapchains, indices) = ([self.raw], [index]);
-        let info = vk::PresentInfoKHR::default()
-            .swapchains(&swapchains)
-            .image_indices(&indices);
+        let info = vk::PresentInfoKHR::default().swapchains(&swapchains).image_indices(&indices);
         // SAFETY: the image was acquired, its copy was waited for, and this thread has the queue.
-        let presented = self
-            .device
-            .with_queue(|queue| unsafe { self.loader.queue_present(queue, &info) });
+        let presented = self.device.with_queue(|queue| unsafe { self.loader.queue_present(queue, &info) });
         match presented {
             Ok(false) => Ok(Shown::Yes),
             Ok(true) => Ok(Shown::Misfit),
@@ -208,9 +189,7 @@ impl Swapchain {
 
     fn destroy(&self) {
         // SAFETY: this thread has the queue. A device that is lost has nothing pending either.
-        let _ = self
-            .device
-            .with_queue(|queue| unsafe { self.device.raw.queue_wait_idle(queue) });
+        let _ = self.device.with_queue(|queue| unsafe { self.device.raw.queue_wait_idle(queue) });
         // SAFETY: nothing is pending on the images; a null swapchain is allowed.
         unsafe { self.loader.destroy_swapchain(self.raw, None) };
     }

@@ -1,9 +1,7 @@
 //! Textures on the device, with mip chains made in linear light.
 
 use crate::error::Result;
-use crate::gpu::{
-    DescriptorSets, Device, Format, Image, ImageDescription, PipelineLayout, Sampler, Use,
-};
+use crate::gpu::{DescriptorSets, Device, Format, Image, ImageDescription, PipelineLayout, Sampler, Use};
 use crate::scene::{Scene, Texels, Texture};
 use crate::shared;
 use half::f16;
@@ -18,18 +16,10 @@ pub(super) struct Textures {
 
 impl Textures {
     pub(super) fn new(device: &Arc<Device>, scene: &Scene) -> Result<Self> {
-        let white = Texture {
-            name: "white".into(),
-            width: 1,
-            height: 1,
-            texels: Texels::Linear8(vec![[255; 4]]),
-        };
+        let white =
+            Texture { name: "white".into(), width: 1, height: 1, texels: Texels::Linear8(vec![[255; 4]]) };
         Ok(Self {
-            images: scene
-                .textures
-                .iter()
-                .map(|texture| upload(device, texture))
-                .collect::<Result<_>>()?,
+            images: scene.textures.iter().map(|texture| upload(device, texture)).collect::<Result<_>>()?,
             white: upload(device, &white)?,
             sampler: Sampler::new(device)?,
         })
@@ -46,8 +36,7 @@ impl Textures {
                 .map(|i| &self.images[i as usize])
                 .collect();
             slots.resize(shared::MATERIAL_TEXTURES as usize, &self.white);
-            sets.get(index)
-                .textures(shared::material::MATERIAL_SLOTS, &slots, &self.sampler);
+            sets.get(index).textures(shared::material::MATERIAL_SLOTS, &slots, &self.sampler);
         }
         Ok(sets)
     }
@@ -66,27 +55,18 @@ fn upload(device: &Arc<Device>, texture: &Texture) -> Result<Image> {
     let uses = &[Use::TransferWrite, Use::Texture];
     let image = Image::new(
         device,
-        &ImageDescription {
-            name: &texture.name,
-            format,
-            size,
-            layers: None,
-            mips,
-            uses,
-        },
+        &ImageDescription { name: &texture.name, format, size, layers: None, mips, uses },
     )?;
     let levels = mip_chain(linear(&texture.texels), size, mips);
     match format {
-        Format::R8G8B8A8_SRGB => upload_levels(&image, &levels, |[r, g, b, a]| {
-            [encode(r), encode(g), encode(b), quantise(a)]
-        })?,
+        Format::R8G8B8A8_SRGB => {
+            upload_levels(&image, &levels, |[r, g, b, a]| [encode(r), encode(g), encode(b), quantise(a)])?
+        }
         Format::R8G8B8A8_UNORM => upload_levels(&image, &levels, |texel| texel.map(quantise))?,
         // Beyond half's range a texel would become infinite.
         _ => {
             let most = f16::MAX.to_f32();
-            upload_levels(&image, &levels, |texel| {
-                texel.map(|v| f16::from_f32(v.clamp(-most, most)))
-            })?;
+            upload_levels(&image, &levels, |texel| texel.map(|v| f16::from_f32(v.clamp(-most, most))))?;
         }
     }
     Ok(image)
@@ -97,10 +77,8 @@ fn upload_levels<T: bytemuck::Pod>(
     levels: &[Vec<[f32; 4]>],
     encode: impl Fn([f32; 4]) -> T,
 ) -> Result<()> {
-    let encoded: Vec<Vec<T>> = levels
-        .iter()
-        .map(|level| level.iter().map(|&texel| encode(texel)).collect())
-        .collect();
+    let encoded: Vec<Vec<T>> =
+        levels.iter().map(|level| level.iter().map(|&texel| encode(texel)).collect()).collect();
     let slices: Vec<&[T]> = encoded.iter().map(Vec::as_slice).collect();
     image.upload(&slices, Use::Texture)
 }
@@ -139,19 +117,11 @@ fn mip_chain(top: Vec<[f32; 4]>, size: [u32; 2], mips: u32) -> Vec<Vec<[f32; 4]>
 }
 
 fn decode(v: f32) -> f32 {
-    if v <= 0.04045 {
-        v / 12.92
-    } else {
-        ((v + 0.055) / 1.055).powf(2.4)
-    }
+    if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
 }
 
 fn encode(v: f32) -> u8 {
-    quantise(if v <= 0.003_130_8 {
-        12.92 * v
-    } else {
-        1.055 * v.powf(1.0 / 2.4) - 0.055
-    })
+    quantise(if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 })
 }
 
 fn quantise(v: f32) -> u8 {
@@ -166,10 +136,7 @@ mod tests {
     fn a_chain_keeps_the_mean_and_the_encoding_survives() {
         let top: Vec<[f32; 4]> = (0..64).map(|i| [i as f32 / 63.0; 4]).collect();
         let levels = mip_chain(top, [8, 8], 4);
-        assert_eq!(
-            levels.iter().map(Vec::len).collect::<Vec<_>>(),
-            [64, 16, 4, 1]
-        );
+        assert_eq!(levels.iter().map(Vec::len).collect::<Vec<_>>(), [64, 16, 4, 1]);
         assert!((levels[3][0][0] - 0.5).abs() < 1e-6);
         assert!((0..=255_u8).all(|byte| encode(decode(f32::from(byte) / 255.0)) == byte));
     }

@@ -19,16 +19,10 @@ pub fn write_atomically(
     writer: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<()> {
     let path = path.as_ref();
-    write(path, writer).map_err(|source| Error::Write {
-        file: path.to_path_buf(),
-        source,
-    })
+    write(path, writer).map_err(|source| Error::Write { file: path.to_path_buf(), source })
 }
 
-fn write(
-    path: &Path,
-    writer: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> io::Result<()> {
+fn write(path: &Path, writer: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
     match fs::metadata(&target) {
         Ok(old) if old.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
@@ -38,20 +32,11 @@ fn write(
         _ => {}
     }
     let temporary = Temporary::beside(&target)?;
-    finish(
-        File::options()
-            .write(true)
-            .create_new(true)
-            .open(&temporary.path)?,
-        writer,
-    )?;
+    finish(File::options().write(true).create_new(true).open(&temporary.path)?, writer)?;
     fs::rename(&temporary.path, &target)
 }
 
-fn finish(
-    file: File,
-    writer: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> io::Result<()> {
+fn finish(file: File, writer: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     let mut file = BufWriter::new(file);
     writer(&mut file)?;
     file.flush()
@@ -69,14 +54,8 @@ impl Temporary {
         let name = target.file_name().ok_or(io::ErrorKind::InvalidInput)?;
         let mut hidden = std::ffi::OsString::from(".");
         hidden.push(name);
-        hidden.push(format!(
-            ".{}.{}",
-            std::process::id(),
-            COUNT.fetch_add(1, Ordering::Relaxed)
-        ));
-        Ok(Self {
-            path: target.with_file_name(hidden),
-        })
+        hidden.push(format!(".{}.{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
+        Ok(Self { path: target.with_file_name(hidden) })
     }
 }
 

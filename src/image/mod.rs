@@ -35,11 +35,7 @@ impl HdrImage {
     /// A black picture.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
-        Self {
-            width,
-            height,
-            pixels: vec![[0.0; 3]; width as usize * height as usize],
-        }
+        Self { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize] }
     }
 
     /// Reads a picture by its extension; see the table of this module.
@@ -68,11 +64,7 @@ impl HdrImage {
         match extension(path).as_str() {
             "pfm" => write_atomically(path, |file| pfm::write(self, file)),
             "exr" => write_atomically(path, |file| self.write_exr(file)),
-            _ => Err(unsupported(
-                path,
-                "write scene-linear numbers to",
-                ".exr, .pfm",
-            )),
+            _ => Err(unsupported(path, "write scene-linear numbers to", ".exr, .pfm")),
         }
     }
 
@@ -103,33 +95,20 @@ impl HdrImage {
 /// # Errors
 /// [`Error::Usage`] if the extension is not `.png` or the number of pixels is not width × height, [`Error::Write`] if
 /// the file cannot be written.
-pub fn save_png8(
-    path: impl AsRef<Path>,
-    width: u32,
-    height: u32,
-    pixels: &[[u8; 3]],
-) -> Result<()> {
+pub fn save_png8(path: impl AsRef<Path>, width: u32, height: u32, pixels: &[[u8; 3]]) -> Result<()> {
     let path = path.as_ref();
     if extension(path) != "png" {
         return Err(unsupported(path, "write 8-bit colours to", ".png"));
     }
     if pixels.len() != width as usize * height as usize {
         return Err(Error::usage(
-            format!(
-                "{} pixels do not make a picture of {width}x{height}",
-                pixels.len()
-            ),
+            format!("{} pixels do not make a picture of {width}x{height}", pixels.len()),
             "pass width × height pixels",
         ));
     }
     write_atomically(path, |file| {
         image::codecs::png::PngEncoder::new(file)
-            .write_image(
-                pixels.as_flattened(),
-                width,
-                height,
-                ExtendedColorType::Rgb8,
-            )
+            .write_image(pixels.as_flattened(), width, height, ExtendedColorType::Rgb8)
             .map_err(io::Error::other)
     })
 }
@@ -137,18 +116,12 @@ pub fn save_png8(
 /// sRGB's transfer function (IEC 61966-2-1), from the encoded value in [0, 1] to scene-linear.
 #[must_use]
 pub fn srgb_to_linear(encoded: f64) -> f64 {
-    if encoded <= 0.040_45 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Lower-case extension, empty without one.
 pub(crate) fn extension(path: &Path) -> String {
-    path.extension()
-        .map(|extension| extension.to_string_lossy().to_lowercase())
-        .unwrap_or_default()
+    path.extension().map(|extension| extension.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
 fn unsupported(path: &Path, verb: &str, supported: &str) -> Error {
@@ -160,22 +133,15 @@ fn unsupported(path: &Path, verb: &str, supported: &str) -> Error {
 
 /// Decodes a file of a known format; [`Error::Input`] otherwise.
 pub(crate) fn decode(path: &Path, format: ImageFormat) -> Result<DynamicImage> {
-    let file = File::open(path).map_err(|error| {
-        Error::input(
-            path,
-            None,
-            error.to_string(),
-            "check the path and its rights",
-        )
-    })?;
+    let file = File::open(path)
+        .map_err(|error| Error::input(path, None, error.to_string(), "check the path and its rights"))?;
     let mut reader = ImageReader::with_format(BufReader::new(file), format);
     // A float32 picture of 16,384² has 3 GiB; a decoder's default limit is a sixth of that.
     let mut limits = image::Limits::default();
     limits.max_alloc = Some(4 << 30);
     reader.limits(limits);
     reader.decode().map_err(|error| {
-        let remedy =
-            "the file is damaged or of another type than its extension says; write it again";
+        let remedy = "the file is damaged or of another type than its extension says; write it again";
         Error::input(path, None, error.to_string(), remedy)
     })
 }
@@ -184,9 +150,5 @@ fn load_decoded(path: &Path, format: ImageFormat) -> Result<HdrImage> {
     let decoded = decode(path, format)?.into_rgb32f();
     let (width, height) = decoded.dimensions();
     let pixels = decoded.pixels().map(|pixel| pixel.0).collect();
-    Ok(HdrImage {
-        width,
-        height,
-        pixels,
-    })
+    Ok(HdrImage { width, height, pixels })
 }

@@ -9,14 +9,8 @@ use crate::{Error, Result};
 
 /// Reads colour (`PF`) and grey (`Pf`); a negative scale means little-endian, its magnitude is ignored.
 pub(super) fn load(path: &Path) -> Result<HdrImage> {
-    let bytes = fs::read(path).map_err(|error| {
-        Error::input(
-            path,
-            None,
-            error.to_string(),
-            "check the path and its rights",
-        )
-    })?;
+    let bytes = fs::read(path)
+        .map_err(|error| Error::input(path, None, error.to_string(), "check the path and its rights"))?;
     parse(&bytes).map_err(|cause| {
         let remedy = "the file is damaged or no PFM file; write it again";
         Error::input(path, None, cause, remedy)
@@ -34,23 +28,14 @@ fn parse(bytes: &[u8]) -> std::result::Result<HdrImage, String> {
     let height: u32 = number(&mut rest, "height")?;
     let scale: f64 = number(&mut rest, "scale")?;
     let row = width as usize * channels * 4;
-    let need = row
-        .checked_mul(height as usize)
-        .ok_or("the picture is too large")?;
+    let need = row.checked_mul(height as usize).ok_or("the picture is too large")?;
     if need == 0 {
         return Err("the picture has no pixels".into());
     }
     if rest.len() < need {
-        return Err(format!(
-            "{need} bytes of pixels are announced, {} are there",
-            rest.len()
-        ));
+        return Err(format!("{need} bytes of pixels are announced, {} are there", rest.len()));
     }
-    let decode: fn([u8; 4]) -> f32 = if scale < 0.0 {
-        f32::from_le_bytes
-    } else {
-        f32::from_be_bytes
-    };
+    let decode: fn([u8; 4]) -> f32 = if scale < 0.0 { f32::from_le_bytes } else { f32::from_be_bytes };
     let value = |b: &[u8]| decode([b[0], b[1], b[2], b[3]]);
     let mut pixels = Vec::with_capacity(width as usize * height as usize);
     for line in rest[..need].chunks_exact(row).rev() {
@@ -59,11 +44,7 @@ fn parse(bytes: &[u8]) -> std::result::Result<HdrImage, String> {
             _ => [value(&pixel[0..]), value(&pixel[4..]), value(&pixel[8..])],
         }));
     }
-    Ok(HdrImage {
-        width,
-        height,
-        pixels,
-    })
+    Ok(HdrImage { width, height, pixels })
 }
 
 /// The next word of the header; eats exactly one white space after it, because pixels may follow.

@@ -5,8 +5,8 @@
 use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, Blend, Commands, Framebuffer, Image, ImageDescription, Outside, RenderPass,
-    Subpass, Use, shaders,
+    Attachment, Blend, Commands, Framebuffer, Image, ImageDescription, Outside, RenderPass, Subpass, Use,
+    shaders,
 };
 use crate::shared;
 use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
@@ -56,22 +56,10 @@ impl Aov {
             inputs.device,
             "aov",
             &[
-                Attachment {
-                    format: HDR_FORMAT,
-                    before: Use::Nothing,
-                    after: Use::TransferRead,
-                },
-                Attachment {
-                    format: DEPTH_FORMAT,
-                    before: Use::DepthRead,
-                    after: Use::DepthRead,
-                },
+                Attachment { format: HDR_FORMAT, before: Use::Nothing, after: Use::TransferRead },
+                Attachment { format: DEPTH_FORMAT, before: Use::DepthRead, after: Use::DepthRead },
             ],
-            &[Subpass {
-                color: &[0],
-                input: &[],
-                depth: Some((1, Use::DepthTest)),
-            }],
+            &[Subpass { color: &[0], input: &[], depth: Some((1, Use::DepthTest)) }],
             &[],
             &[
                 Outside::Before(Use::TransferRead, Use::ColorWrite),
@@ -80,20 +68,10 @@ impl Aov {
             ],
         )?;
         let framebuffer = Framebuffer::new(inputs.device, &pass, &[&image, &targets.depth])?;
-        let blend = if quantity == Quantity::Coverage {
-            Blend::Add
-        } else {
-            Blend::Replace
-        };
+        let blend = if quantity == Quantity::Coverage { Blend::Add } else { Blend::Replace };
         let extra = [(shared::SPEC_AOV, quantity as u32)];
-        let pipelines =
-            SurfacePipelines::new(inputs, shaders::AOV_AOV_FRAG, &extra, blend, (&pass, 0))?;
-        Ok(Self {
-            pass,
-            framebuffer,
-            pipelines,
-            image,
-        })
+        let pipelines = SurfacePipelines::new(inputs, shaders::AOV_AOV_FRAG, &extra, blend, (&pass, 0))?;
+        Ok(Self { pass, framebuffer, pipelines, image })
     }
 
     /// Draws the variable.

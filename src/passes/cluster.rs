@@ -13,8 +13,8 @@
 use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
-    Buffer, BufferUse, Commands, ComputePipeline, DescriptorSet, Device, Format, Image,
-    ImageDescription, Specialization, Use, shaders,
+    Buffer, BufferUse, Commands, ComputePipeline, DescriptorSet, Device, Format, Image, ImageDescription,
+    Specialization, Use, shaders,
 };
 use crate::shared::{self, Cluster, Counters, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, Tile};
 use std::sync::Arc;
@@ -32,20 +32,13 @@ impl Capacity {
     /// What a picture of so many tiles starts with: two depth layers, 64 lights in each.
     #[must_use]
     pub fn start(tiles: u32) -> Self {
-        Self {
-            clusters: tiles.max(32) * 2,
-            texels: 0,
-        }
-        .with_texels(tiles * 32)
+        Self { clusters: tiles.max(32) * 2, texels: 0 }.with_texels(tiles * 32)
     }
 
     /// Whole layers of the list image.
     fn with_texels(self, texels: u32) -> Self {
         let layer = 1 << (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2);
-        Self {
-            texels: texels.div_ceil(layer).max(1) * layer,
-            ..self
-        }
+        Self { texels: texels.div_ceil(layer).max(1) * layer, ..self }
     }
 
     /// Enough for what the counters ask for; `None` if it is so already.
@@ -97,12 +90,7 @@ impl ClusterTargets {
         Ok(Self {
             capacity,
             tiles: Buffer::new(device, "tiles", BufferUse::Storage, tiles as usize)?,
-            clusters: Buffer::new(
-                device,
-                "clusters",
-                BufferUse::Storage,
-                capacity.clusters as usize,
-            )?,
+            clusters: Buffer::new(device, "clusters", BufferUse::Storage, capacity.clusters as usize)?,
             counters: Buffer::new(device, "cluster counters", BufferUse::Storage, 1)?,
             lists,
         })
@@ -113,11 +101,7 @@ impl ClusterTargets {
         frame.buffer(shared::frame::FRAME_TILES, &self.tiles);
         frame.buffer(shared::frame::FRAME_CLUSTERS, &self.clusters);
         frame.buffer(shared::frame::FRAME_COUNTERS, &self.counters);
-        frame.image(
-            shared::frame::FRAME_LISTS_OUT,
-            &self.lists,
-            Use::ComputeWrite,
-        );
+        frame.image(shared::frame::FRAME_LISTS_OUT, &self.lists, Use::ComputeWrite);
         frame.image(shared::frame::FRAME_LISTS, &self.lists, Use::FragmentRead);
     }
 }
@@ -139,12 +123,7 @@ impl ClusterPass {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>) -> Result<Self> {
         let step = |shader| {
-            ComputePipeline::new(
-                inputs.device,
-                &inputs.scene.layout,
-                shader,
-                &Specialization::default(),
-            )
+            ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, &Specialization::default())
         };
         Ok(Self {
             slices: step(shaders::CLUSTER_SLICES_COMP)?,
@@ -157,13 +136,7 @@ impl ClusterPass {
     }
 
     /// Records the six steps, with what each hands to the next.
-    pub fn record(
-        &self,
-        cmd: &mut Commands,
-        view: &View<'_>,
-        targets: &ClusterTargets,
-        tiles: [u32; 2],
-    ) {
+    pub fn record(&self, cmd: &mut Commands, view: &View<'_>, targets: &ClusterTargets, tiles: [u32; 2]) {
         let sets = [view.frame, view.scene.set.get(0)];
         let tiles = [tiles[0], tiles[1], 1];
         cmd.labelled("cluster", |cmd| {

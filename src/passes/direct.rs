@@ -6,8 +6,8 @@ use super::forward::Work;
 use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
 use crate::gpu::{
-    Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass,
-    Specialization, shaders,
+    Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass, Specialization,
+    shaders,
 };
 use crate::shared;
 
@@ -28,8 +28,7 @@ impl Direct {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>, work: Work, at: (&RenderPass, u32)) -> Result<Self> {
-        let unranged =
-            || SurfacePipelines::new(inputs, shaders::DIRECT_UNRANGED_FRAG, &[], Blend::Add, at);
+        let unranged = || SurfacePipelines::new(inputs, shaders::DIRECT_UNRANGED_FRAG, &[], Blend::Add, at);
         let background = || {
             GraphicsPipeline::new(
                 inputs.device,

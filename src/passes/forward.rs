@@ -7,9 +7,7 @@ use super::indirect::Indirect;
 use super::present::Present;
 use super::{PassInputs, View};
 use crate::error::Result;
-use crate::gpu::{
-    Attachment, Commands, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use,
-};
+use crate::gpu::{Attachment, Commands, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use};
 use crate::scene::settings::Tonemap;
 use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, LDR_FORMAT, Targets};
 
@@ -51,15 +49,9 @@ impl Forward {
     pub fn new(inputs: &PassInputs<'_>, targets: &Targets, work: Work) -> Result<Self> {
         let first = render_pass(inputs, work, Use::Nothing)?;
         let further = render_pass(inputs, work, Use::TransferRead)?;
-        let framebuffer = Framebuffer::new(
-            inputs.device,
-            &first,
-            &[&targets.hdr, &targets.ldr, &targets.depth],
-        )?;
-        let indirect = work
-            .clustered
-            .then(|| Indirect::new(inputs, (&first, 1)))
-            .transpose()?;
+        let framebuffer =
+            Framebuffer::new(inputs.device, &first, &[&targets.hdr, &targets.ldr, &targets.depth])?;
+        let indirect = work.clustered.then(|| Indirect::new(inputs, (&first, 1))).transpose()?;
         let last = if work.clustered { 2 } else { 1 };
         Ok(Self {
             direct: Direct::new(inputs, work, (&first, 0))?,
@@ -85,14 +77,7 @@ impl Forward {
             cmd.timestamp(timestamps, stamp);
             stamp += 1;
         };
-        cmd.begin_pass(
-            if sample.first {
-                &self.first
-            } else {
-                &self.further
-            },
-            &self.framebuffer,
-        );
+        cmd.begin_pass(if sample.first { &self.first } else { &self.further }, &self.framebuffer);
         cmd.labelled("direct", |cmd| self.direct.record(cmd, view));
         done(cmd);
         if let Some(indirect) = &self.indirect {
@@ -101,9 +86,7 @@ impl Forward {
             done(cmd);
         }
         cmd.next_subpass();
-        cmd.labelled("present", |cmd| {
-            self.present.record(cmd, view, sample.scale)
-        });
+        cmd.labelled("present", |cmd| self.present.record(cmd, view, sample.scale));
         cmd.end_pass();
         done(cmd);
     }
@@ -119,16 +102,8 @@ pub struct Sample {
 }
 
 fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<RenderPass> {
-    let shading = Subpass {
-        color: &[HDR],
-        input: &[],
-        depth: Some((DEPTH, Use::DepthTest)),
-    };
-    let present = Subpass {
-        color: &[LDR],
-        input: &[HDR],
-        depth: None,
-    };
+    let shading = Subpass { color: &[HDR], input: &[], depth: Some((DEPTH, Use::DepthTest)) };
+    let present = Subpass { color: &[LDR], input: &[HDR], depth: None };
     let mut subpasses = vec![shading];
     let mut inside = Vec::new();
     if work.clustered {
@@ -141,21 +116,9 @@ fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<R
         inputs.device,
         "forward",
         &[
-            Attachment {
-                format: HDR_FORMAT,
-                before: hdr_before,
-                after: Use::TransferRead,
-            },
-            Attachment {
-                format: LDR_FORMAT,
-                before: Use::Nothing,
-                after: Use::TransferRead,
-            },
-            Attachment {
-                format: DEPTH_FORMAT,
-                before: Use::DepthRead,
-                after: Use::DepthRead,
-            },
+            Attachment { format: HDR_FORMAT, before: hdr_before, after: Use::TransferRead },
+            Attachment { format: LDR_FORMAT, before: Use::Nothing, after: Use::TransferRead },
+            Attachment { format: DEPTH_FORMAT, before: Use::DepthRead, after: Use::DepthRead },
         ],
         &subpasses,
         &inside,

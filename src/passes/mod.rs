@@ -15,8 +15,8 @@ pub mod present;
 use crate::draws::VisibleDraw;
 use crate::error::Result;
 use crate::gpu::{
-    Blend, Commands, DepthTest, DescriptorSet, Device, GraphicsDescription, GraphicsPipeline,
-    RenderPass, Shader, shaders,
+    Blend, Commands, DepthTest, DescriptorSet, Device, GraphicsDescription, GraphicsPipeline, RenderPass,
+    Shader, shaders,
 };
 use crate::gpu_scene::GpuScene;
 use crate::shared::{self, DrawConstants};
@@ -44,10 +44,8 @@ impl SurfacePipelines {
         (pass, subpass): (&RenderPass, u32),
     ) -> Result<Self> {
         let pipelines = inputs.scene.variants.iter().map(|variant| {
-            let mut specialization = variant
-                .specialization
-                .clone()
-                .with(shared::SPEC_PERSPECTIVE, u32::from(inputs.perspective));
+            let mut specialization =
+                variant.specialization.clone().with(shared::SPEC_PERSPECTIVE, u32::from(inputs.perspective));
             for &(id, value) in extra {
                 specialization = specialization.with(id, value);
             }
@@ -108,15 +106,8 @@ fn draw_scene<'a>(
             variant = Some(draw.variant);
         }
         if material != Some(draw.material) {
-            cmd.bind_sets(
-                shared::material::SET,
-                &[scene.materials.get(draw.material as usize)],
-            );
-            cmd.push(&DrawConstants {
-                material: draw.material,
-                scale: 0.0,
-                lights,
-            });
+            cmd.bind_sets(shared::material::SET, &[scene.materials.get(draw.material as usize)]);
+            cmd.push(&DrawConstants { material: draw.material, scale: 0.0, lights });
             material = Some(draw.material);
         }
         cmd.draw_triangles(draw.first, draw.count);

@@ -1,9 +1,7 @@
 //! Accounting: pairs of pixel and light, evaluated and useful. Outside the frame, only for reports and benchmarks.
 
 use crate::error::Result;
-use crate::gpu::{
-    Buffer, BufferUse, ComputePipeline, DescriptorSet, Device, Specialization, Use, shaders,
-};
+use crate::gpu::{Buffer, BufferUse, ComputePipeline, DescriptorSet, Device, Specialization, Use, shaders};
 use crate::gpu_scene::GpuScene;
 use crate::shared::{self, TilePairs};
 use std::sync::Arc;
@@ -62,10 +60,6 @@ impl PairPass {
             evaluated: pairs.evaluated + u64::from(tile.evaluated),
             useful: pairs.useful + u64::from(tile.useful),
         };
-        Ok(self
-            .tiles
-            .fetch(Use::ComputeWrite)?
-            .iter()
-            .fold(PairCount::default(), sum))
+        Ok(self.tiles.fetch(Use::ComputeWrite)?.iter().fold(PairCount::default(), sum))
     }
 }

@@ -5,8 +5,8 @@
 use super::{PassInputs, View, draw_scene};
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, Commands, DepthTest, Framebuffer, GraphicsDescription, GraphicsPipeline, Outside,
-    RenderPass, Subpass, Use, shaders,
+    Attachment, Commands, DepthTest, Framebuffer, GraphicsDescription, GraphicsPipeline, Outside, RenderPass,
+    Subpass, Use, shaders,
 };
 use crate::gpu_scene::Variant;
 use crate::targets::{DEPTH_FORMAT, Targets};
@@ -28,15 +28,8 @@ impl Prepass {
         let pass = RenderPass::new(
             inputs.device,
             "prepass",
-            &[Attachment {
-                format: DEPTH_FORMAT,
-                before: Use::Nothing,
-                after: Use::DepthRead,
-            }],
-            &[Subpass {
-                depth: Some((0, Use::DepthWrite)),
-                ..Subpass::default()
-            }],
+            &[Attachment { format: DEPTH_FORMAT, before: Use::Nothing, after: Use::DepthRead }],
+            &[Subpass { depth: Some((0, Use::DepthWrite)), ..Subpass::default() }],
             &[],
             // The last frame's readers, then this frame's clustering.
             &[
@@ -63,17 +56,8 @@ impl Prepass {
                 },
             )
         };
-        let pipelines = inputs
-            .scene
-            .variants
-            .iter()
-            .map(pipeline)
-            .collect::<Result<_>>()?;
-        Ok(Self {
-            pass,
-            framebuffer,
-            pipelines,
-        })
+        let pipelines = inputs.scene.variants.iter().map(pipeline).collect::<Result<_>>()?;
+        Ok(Self { pass, framebuffer, pipelines })
     }
 
     /// Draws the scene's depth.

@@ -3,8 +3,8 @@
 use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
-    Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass,
-    Specialization, shaders,
+    Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass, Specialization,
+    shaders,
 };
 use crate::scene::settings::Tonemap;
 use crate::shared::{self, DrawConstants};
@@ -46,10 +46,7 @@ impl Present {
     pub fn record(&self, cmd: &mut Commands, view: &View<'_>, scale: f32) {
         cmd.bind_graphics(&self.0);
         cmd.bind_sets(shared::frame::SET, &[view.frame]);
-        cmd.push(&DrawConstants {
-            scale,
-            ..DrawConstants::default()
-        });
+        cmd.push(&DrawConstants { scale, ..DrawConstants::default() });
         cmd.draw_fullscreen();
     }
 }

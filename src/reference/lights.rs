@@ -45,37 +45,22 @@ impl PointLights {
             intensity: light.intensity.as_dvec3(),
             range: light.range.map(f64::from),
         };
-        let (ranged, unranged): (Vec<_>, Vec<_>) = lights
-            .iter()
-            .map(light)
-            .partition(|light| light.range.is_some());
+        let (ranged, unranged): (Vec<_>, Vec<_>) =
+            lights.iter().map(light).partition(|light| light.range.is_some());
         let bounds = |light: &Light| {
             let reach = DVec3::splat(light.range.unwrap_or(0.0));
-            Bounds {
-                min: light.position - reach,
-                max: light.position + reach,
-            }
+            Bounds { min: light.position - reach, max: light.position + reach }
         };
         let boxes: Vec<_> = ranged.iter().map(bounds).collect();
-        Self {
-            unranged,
-            ranged,
-            tree: Tree::new(&boxes),
-        }
+        Self { unranged, ranged, tree: Tree::new(&boxes) }
     }
 
     /// Reflected radiance Σ f cosθ I falloff(d), unshadowed.
     #[must_use]
     pub fn reflected(&self, surface: &Surface) -> DVec3 {
-        let every: DVec3 = self
-            .unranged
-            .iter()
-            .map(|light| light.reflected(surface))
-            .sum();
+        let every: DVec3 = self.unranged.iter().map(|light| light.reflected(surface)).sum();
         let mut near = DVec3::ZERO;
-        self.tree.at_point(surface.position, |index| {
-            near += self.ranged[index].reflected(surface)
-        });
+        self.tree.at_point(surface.position, |index| near += self.ranged[index].reflected(surface));
         every + near
     }
 }
@@ -99,25 +84,15 @@ impl Light {
 #[must_use]
 pub fn reaching(lights: &[PointLight], bounds: &Bounds) -> Vec<u32> {
     let reaches = |light: &PointLight| {
-        light.range.is_none_or(|range| {
-            bounds.distance_squared(light.position.as_dvec3()) < f64::from(range).powi(2)
-        })
+        light
+            .range
+            .is_none_or(|range| bounds.distance_squared(light.position.as_dvec3()) < f64::from(range).powi(2))
     };
-    (0_u32..)
-        .zip(lights)
-        .filter(|(_, light)| reaches(light))
-        .map(|(index, _)| index)
-        .collect()
+    (0_u32..).zip(lights).filter(|(_, light)| reaches(light)).map(|(index, _)| index).collect()
 }
 
 /// Indices of the lights that reach a point, ascending; see [`reaching`].
 #[must_use]
 pub fn reaching_point(lights: &[PointLight], point: DVec3) -> Vec<u32> {
-    reaching(
-        lights,
-        &Bounds {
-            min: point,
-            max: point,
-        },
-    )
+    reaching(lights, &Bounds { min: point, max: point })
 }

@@ -27,19 +27,14 @@ pub struct CameraRay {
 pub fn camera_ray(camera: &Camera, size: [u32; 2], x: f64, y: f64) -> CameraRay {
     let basis = camera.basis();
     let [width, height] = size.map(f64::from);
-    let plane = basis.right * (width / height * (2.0 * x / width - 1.0))
-        + basis.up * (1.0 - 2.0 * y / height);
+    let plane =
+        basis.right * (width / height * (2.0 * x / width - 1.0)) + basis.up * (1.0 - 2.0 * y / height);
     let (origin, direction) = match camera.projection {
         Projection::Perspective { vertical_fov } => {
             let tangent = (0.5 * vertical_fov.to_radians()).tan();
-            (
-                camera.position,
-                (basis.forward + plane * tangent).normalize(),
-            )
+            (camera.position, (basis.forward + plane * tangent).normalize())
         }
-        Projection::Orthographic { height } => {
-            (camera.position + plane * (0.5 * height), basis.forward)
-        }
+        Projection::Orthographic { height } => (camera.position + plane * (0.5 * height), basis.forward),
     };
     // Near and far are planes: distances along the view, not along the ray.
     let per_view = 1.0 / direction.dot(basis.forward);
@@ -83,14 +78,9 @@ impl<'a> Geometry<'a> {
             (0..count).map(move |t| (m as u32, t)).collect::<Vec<_>>()
         };
         let triangles: Vec<_> = scene.meshes.iter().enumerate().flat_map(of_mesh).collect();
-        let bounds =
-            |&(m, t): &(u32, u32)| Bounds::around(corners(&scene.meshes[m as usize], t as usize));
+        let bounds = |&(m, t): &(u32, u32)| Bounds::around(corners(&scene.meshes[m as usize], t as usize));
         let boxes: Vec<_> = triangles.iter().map(bounds).collect();
-        Self {
-            scene,
-            triangles,
-            tree: Tree::new(&boxes),
-        }
+        Self { scene, triangles, tree: Tree::new(&boxes) }
     }
 
     /// The nearest surface that is drawn: back faces of one-sided materials and what an alpha mask cuts are not there.
@@ -102,13 +92,7 @@ impl<'a> Geometry<'a> {
             let (m, t) = self.triangles[item];
             let (mesh, triangle) = (m as usize, t as usize);
             let (t, weights, front) = sheared.meets(corners(&self.scene.meshes[mesh], triangle))?;
-            let hit = Hit {
-                t,
-                mesh,
-                triangle,
-                weights,
-                front,
-            };
+            let hit = Hit { t, mesh, triangle, weights, front };
             if t < view.t_min || t > t_max || !self.drawn(&hit) {
                 return None;
             }
@@ -130,8 +114,7 @@ impl<'a> Geometry<'a> {
 }
 
 fn corners(mesh: &Mesh, triangle: usize) -> [DVec3; 3] {
-    let corner =
-        |vertex: u32| DVec3::from_array(mesh.vertices[vertex as usize].position.map(f64::from));
+    let corner = |vertex: u32| DVec3::from_array(mesh.vertices[vertex as usize].position.map(f64::from));
     mesh.triangles[triangle].map(corner)
 }
 
@@ -154,12 +137,7 @@ impl Sheared {
             std::mem::swap(&mut x, &mut y);
         }
         let scale = 1.0 / d[z];
-        Self {
-            origin: ray.origin,
-            axes: [x, y, z],
-            shear: DVec2::new(d[x], d[y]) * scale,
-            scale,
-        }
+        Self { origin: ray.origin, axes: [x, y, z], shear: DVec2::new(d[x], d[y]) * scale, scale }
     }
 
     /// Distance, weights, and whether the front faces the ray.
@@ -167,16 +145,10 @@ impl Sheared {
         let [x, y, z] = self.axes;
         let [a, b, c] = corners.map(|corner| {
             let p = corner - self.origin;
-            (
-                DVec2::new(p[x], p[y]) - self.shear * p[z],
-                self.scale * p[z],
-            )
+            (DVec2::new(p[x], p[y]) - self.shear * p[z], self.scale * p[z])
         });
         let edges = [c.0.perp_dot(b.0), a.0.perp_dot(c.0), b.0.perp_dot(a.0)];
-        let (outside, inside) = (
-            edges.iter().any(|&e| e < 0.0),
-            edges.iter().any(|&e| e > 0.0),
-        );
+        let (outside, inside) = (edges.iter().any(|&e| e < 0.0), edges.iter().any(|&e| e > 0.0));
         let sum: f64 = edges.iter().sum();
         if (outside && inside) || sum == 0.0 {
             return None;

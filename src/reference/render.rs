@@ -76,19 +76,13 @@ pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rende
         scene,
         geometry: Geometry::new(scene),
         points: PointLights::new(&scene.point_lights),
-        emitters: scene
-            .area_lights
-            .iter()
-            .map(|l| Emitter::new(l, &scene.textures))
-            .collect(),
+        emitters: scene.area_lights.iter().map(|l| Emitter::new(l, &scene.textures)).collect(),
         tolerance: options.tolerance * f64::from(options.spp).sqrt(),
     };
     let [width, height] = options.size;
     let bar = progress_bar(u64::from(height), options.progress);
     let row = |y: u32| {
-        let row: Vec<_> = (0..width)
-            .map(|x| world.pixel(camera, options, x, y))
-            .collect();
+        let row: Vec<_> = (0..width).map(|x| world.pixel(camera, options, x, y)).collect();
         bar.inc(1);
         row
     };
@@ -97,16 +91,9 @@ pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rende
     let picture = |channel: fn(&Estimate) -> DVec3| HdrImage {
         width,
         height,
-        pixels: pixels
-            .iter()
-            .flatten()
-            .map(|e| channel(e).as_vec3().to_array())
-            .collect(),
+        pixels: pixels.iter().flatten().map(|e| channel(e).as_vec3().to_array()).collect(),
     };
-    Ok(Rendered {
-        image: picture(|e| e.value),
-        standard_error: picture(|e| e.standard_error),
-    })
+    Ok(Rendered { image: picture(|e| e.value), standard_error: picture(|e| e.standard_error) })
 }
 
 fn check(options: &Options) -> Result<()> {
@@ -121,10 +108,7 @@ fn check(options: &Options) -> Result<()> {
     }
     if options.size.contains(&0) || options.spp == 0 {
         let cause = "a picture without pixels or without samples";
-        return Err(Error::usage(
-            cause,
-            "give a width, a height and an spp of at least 1",
-        ));
+        return Err(Error::usage(cause, "give a width, a height and an spp of at least 1"));
     }
     Ok(())
 }
@@ -171,29 +155,17 @@ impl World<'_> {
     fn radiance(&self, view: &CameraRay, seed: u64) -> Estimate {
         let hit = self.geometry.closest(view);
         let beyond = hit.map_or(view.t_max, |hit| hit.t);
-        let luminaires = self
-            .emitters
-            .iter()
-            .filter_map(|emitter| emitter.seen_by(&view.ray));
+        let luminaires = self.emitters.iter().filter_map(|emitter| emitter.seen_by(&view.ray));
         let in_view = luminaires.filter(|(t, _)| (view.t_min..=beyond).contains(t));
         if let Some((_, radiance)) = in_view.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            return Estimate {
-                value: radiance,
-                standard_error: DVec3::ZERO,
-            };
+            return Estimate { value: radiance, standard_error: DVec3::ZERO };
         }
         let Some(hit) = hit else {
             let background = self.scene.render.background.map(f64::from);
-            return Estimate {
-                value: background.into(),
-                standard_error: DVec3::ZERO,
-            };
+            return Estimate { value: background.into(), standard_error: DVec3::ZERO };
         };
         let surface = Surface::new(self.scene, &view.ray, &hit);
         let area = area::reflected(&surface, &self.emitters, self.tolerance, seed);
-        Estimate {
-            value: area.value + self.points.reflected(&surface),
-            ..area
-        }
+        Estimate { value: area.value + self.points.reflected(&surface), ..area }
     }
 }

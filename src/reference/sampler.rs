@@ -29,9 +29,7 @@ pub(super) struct Sequence {
 impl Sequence {
     /// The sequence of a seed; different seeds are independent.
     pub(super) fn new(seed: u64) -> Self {
-        Self {
-            shift: DVec2::new(uniform(hash(&[seed, 0])), uniform(hash(&[seed, 1]))),
-        }
+        Self { shift: DVec2::new(uniform(hash(&[seed, 0])), uniform(hash(&[seed, 1]))) }
     }
 
     /// Point `index`; any prefix is well spread.

@@ -28,32 +28,20 @@ impl Frame {
     #[must_use]
     pub fn with_tangent(normal: DVec3, tangent: DVec3) -> Option<Self> {
         let tangent = (tangent - normal * normal.dot(tangent)).try_normalize()?;
-        Some(Self {
-            tangent,
-            bitangent: normal.cross(tangent),
-            normal,
-        })
+        Some(Self { tangent, bitangent: normal.cross(tangent), normal })
     }
 
     /// Any frame about a unit normal.
     #[must_use]
     pub fn about(normal: DVec3) -> Self {
         let tangent = normal.any_orthonormal_vector();
-        Self {
-            tangent,
-            bitangent: normal.cross(tangent),
-            normal,
-        }
+        Self { tangent, bitangent: normal.cross(tangent), normal }
     }
 
     /// A world direction in the frame.
     #[must_use]
     pub fn to_local(&self, w: DVec3) -> DVec3 {
-        DVec3::new(
-            w.dot(self.tangent),
-            w.dot(self.bitangent),
-            w.dot(self.normal),
-        )
+        DVec3::new(w.dot(self.tangent), w.dot(self.bitangent), w.dot(self.normal))
     }
 
     /// A direction of the frame in the world.
@@ -82,11 +70,7 @@ impl Surface {
     pub fn new(scene: &Scene, ray: &Ray, hit: &Hit) -> Self {
         let mesh = &scene.meshes[hit.mesh];
         let material = &scene.materials[mesh.material as usize];
-        let parameters = Parameters {
-            scene,
-            material,
-            uv: vertex_uv(mesh, hit),
-        };
+        let parameters = Parameters { scene, material, uv: vertex_uv(mesh, hit) };
         let (frame, has_tangent) = shading_frame(mesh, hit, &parameters, -ray.direction);
         Self {
             position: ray.origin + hit.t * ray.direction,
@@ -104,11 +88,7 @@ impl Surface {
 /// is applied on the front and turned with it.
 fn shading_frame(mesh: &Mesh, hit: &Hit, parameters: &Parameters, wo: DVec3) -> (Frame, bool) {
     let normal = interpolate(mesh, hit, |v| v.normal.map(f64::from)).normalize_or(DVec3::Y);
-    let turn = if parameters.material.two_sided && normal.dot(wo) < 0.0 {
-        -1.0
-    } else {
-        1.0
-    };
+    let turn = if parameters.material.two_sided && normal.dot(wo) < 0.0 { -1.0 } else { 1.0 };
     let tangent = interpolate(mesh, hit, |v| {
         let [x, y, z, _] = v.tangent.map(f64::from);
         [x, y, z]
@@ -116,13 +96,8 @@ fn shading_frame(mesh: &Mesh, hit: &Hit, parameters: &Parameters, wo: DVec3) -> 
     let Some(frame) = Frame::with_tangent(normal, tangent) else {
         return (Frame::about(turn * normal), false);
     };
-    let handedness = interpolate(mesh, hit, |v| [f64::from(v.tangent[3]); 3])
-        .x
-        .signum();
-    let normal = turn
-        * parameters
-            .mapped_normal(&frame, handedness)
-            .unwrap_or(normal);
+    let handedness = interpolate(mesh, hit, |v| [f64::from(v.tangent[3]); 3]).x.signum();
+    let normal = turn * parameters.mapped_normal(&frame, handedness).unwrap_or(normal);
     match Frame::with_tangent(normal, frame.tangent) {
         Some(frame) => (frame, true),
         None => (Frame::about(normal), false),
@@ -134,18 +109,12 @@ pub(super) fn vertex_uv(mesh: &Mesh, hit: &Hit) -> DVec2 {
     interpolate(mesh, hit, |v| [f64::from(v.uv[0]), f64::from(v.uv[1]), 0.0]).truncate()
 }
 
-fn interpolate(
-    mesh: &Mesh,
-    hit: &Hit,
-    attribute: impl Fn(&crate::scene::Vertex) -> [f64; 3],
-) -> DVec3 {
+fn interpolate(mesh: &Mesh, hit: &Hit, attribute: impl Fn(&crate::scene::Vertex) -> [f64; 3]) -> DVec3 {
     let corners = mesh.triangles[hit.triangle];
     corners
         .iter()
         .zip(hit.weights)
-        .map(|(&vertex, weight)| {
-            weight * DVec3::from_array(attribute(&mesh.vertices[vertex as usize]))
-        })
+        .map(|(&vertex, weight)| weight * DVec3::from_array(attribute(&mesh.vertices[vertex as usize])))
         .sum()
 }
 
@@ -180,11 +149,7 @@ impl Parameters<'_> {
     /// Perceptual roughness and raw alpha.
     fn roughness_and_alpha(&self) -> (f64, f64) {
         let value = self.scalar(Parameter::Roughness);
-        if self.material.squared_roughness {
-            (value, value * value)
-        } else {
-            (value.max(0.0).sqrt(), value)
-        }
+        if self.material.squared_roughness { (value, value * value) } else { (value.max(0.0).sqrt(), value) }
     }
 
     /// alpha_x = alpha/aspect, alpha_y = alpha·aspect, each at least 1e-3; isotropic with √(alpha_x alpha_y) where
@@ -196,40 +161,24 @@ impl Parameters<'_> {
             Some(_) => (1.0 - 0.9 * value).max(0.0).sqrt(),
             None => value,
         };
-        let ggx = Ggx {
-            alpha_x: (alpha / aspect).max(1e-3),
-            alpha_y: (alpha * aspect).max(1e-3),
-        };
-        if has_tangent {
-            ggx
-        } else {
-            Ggx::isotropic((ggx.alpha_x * ggx.alpha_y).sqrt())
-        }
+        let ggx = Ggx { alpha_x: (alpha / aspect).max(1e-3), alpha_y: (alpha * aspect).max(1e-3) };
+        if has_tangent { ggx } else { Ggx::isotropic((ggx.alpha_x * ggx.alpha_y).sqrt()) }
     }
 
     fn bsdf(&self, has_tangent: bool) -> Bsdf {
         let (color, specular) = (self.rgb(Parameter::Color), self.rgb(Parameter::Specular));
         match self.material.model {
-            Model::Matte => Bsdf::Matte(Matte {
-                color,
-                sigma: self.scalar(Parameter::Sigma),
-            }),
+            Model::Matte => Bsdf::Matte(Matte { color, sigma: self.scalar(Parameter::Sigma) }),
             Model::Plastic => Bsdf::Plastic(Plastic {
                 diffuse: color,
                 specular,
                 eta: self.scalar(Parameter::Eta),
                 alpha: self.roughness_and_alpha().1.max(1e-3),
             }),
-            Model::Metal => Bsdf::Metal(Metal {
-                eta: color,
-                k: specular,
-                ggx: self.ggx(has_tangent),
-            }),
-            Model::Substrate => Bsdf::Substrate(Substrate {
-                diffuse: color,
-                specular,
-                ggx: self.ggx(has_tangent),
-            }),
+            Model::Metal => Bsdf::Metal(Metal { eta: color, k: specular, ggx: self.ggx(has_tangent) }),
+            Model::Substrate => {
+                Bsdf::Substrate(Substrate { diffuse: color, specular, ggx: self.ggx(has_tangent) })
+            }
             Model::Principled => Bsdf::Principled(self.principled(color, has_tangent)),
         }
     }

@@ -41,9 +41,7 @@ fn wrapped(index: f64, count: u32, wrap: Wrap) -> usize {
 fn fetch(texture: &Texture, index: usize) -> DVec3 {
     let unit = |byte: u8| f64::from(byte) / 255.0;
     match &texture.texels {
-        Texels::Srgb8(texels) => rgb(texels[index])
-            .map(|byte| srgb_to_linear(unit(byte)))
-            .into(),
+        Texels::Srgb8(texels) => rgb(texels[index]).map(|byte| srgb_to_linear(unit(byte))).into(),
         Texels::Linear8(texels) => rgb(texels[index]).map(unit).into(),
         Texels::Float(texels) => rgb(texels[index]).map(f64::from).into(),
     }

@@ -12,26 +12,17 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    const EMPTY: Self = Self {
-        min: DVec3::INFINITY,
-        max: DVec3::NEG_INFINITY,
-    };
+    const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
 
     /// The smallest box around points.
     #[must_use]
     pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
-        let extend = |b: Self, p: DVec3| Self {
-            min: b.min.min(p),
-            max: b.max.max(p),
-        };
+        let extend = |b: Self, p: DVec3| Self { min: b.min.min(p), max: b.max.max(p) };
         points.into_iter().fold(Self::EMPTY, extend)
     }
 
     fn union(self, other: Self) -> Self {
-        Self {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     fn contains(&self, p: DVec3) -> bool {
@@ -46,10 +37,7 @@ impl Bounds {
 
     /// Distance along the ray at which it enters, if before `t_max`.
     fn entry(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let (a, b) = (
-            (self.min - ray.origin) * ray.inverse,
-            (self.max - ray.origin) * ray.inverse,
-        );
+        let (a, b) = ((self.min - ray.origin) * ray.inverse, (self.max - ray.origin) * ray.inverse);
         // A ray in a face's plane makes 0·∞ = NaN; min and max return the other operand, so the slab does not cut.
         let near = a.min(b).to_array().into_iter().fold(0.0, f64::max);
         let far = a.max(b).to_array().into_iter().fold(t_max, f64::min);
@@ -72,11 +60,7 @@ impl Ray {
     /// A ray along the unit vector `direction`.
     #[must_use]
     pub fn new(origin: DVec3, direction: DVec3) -> Self {
-        Self {
-            origin,
-            direction,
-            inverse: direction.recip(),
-        }
+        Self { origin, direction, inverse: direction.recip() }
     }
 }
 
@@ -100,10 +84,7 @@ const LEAF_SIZE: usize = 4;
 impl Tree {
     /// Splits at the median of the widest axis; same boxes, same tree.
     pub(super) fn new(boxes: &[Bounds]) -> Self {
-        let mut tree = Self {
-            nodes: Vec::new(),
-            items: (0..boxes.len() as u32).collect(),
-        };
+        let mut tree = Self { nodes: Vec::new(), items: (0..boxes.len() as u32).collect() };
         if !boxes.is_empty() {
             tree.split(boxes, 0, boxes.len());
         }
@@ -119,11 +100,7 @@ impl Tree {
         let axis = (extent.max - extent.min).max_position();
         let node = self.nodes.len();
         let leaf = count <= LEAF_SIZE;
-        self.nodes.push(Node {
-            bounds,
-            first: first as u32,
-            count: if leaf { count as u32 } else { 0 },
-        });
+        self.nodes.push(Node { bounds, first: first as u32, count: if leaf { count as u32 } else { 0 } });
         if leaf {
             return;
         }
@@ -145,9 +122,7 @@ impl Tree {
             if node.count == 0 {
                 stack.extend([node.first as usize, index + 1]);
             }
-            self.leaf(node)
-                .iter()
-                .for_each(|&item| visit(item as usize));
+            self.leaf(node).iter().for_each(|&item| visit(item as usize));
         }
     }
 
@@ -181,11 +156,7 @@ impl Tree {
     }
 
     fn leaf(&self, node: &Node) -> &[u32] {
-        let first = if node.count == 0 {
-            0
-        } else {
-            node.first as usize
-        };
+        let first = if node.count == 0 { 0 } else { node.first as usize };
         &self.items[first..first + node.count as usize]
     }
 }

@@ -67,13 +67,7 @@ pub(super) fn material(
 ///
 /// MTL materials must not answer to plain names: those belong to `[[material]]`.
 fn unique_name(loader: &Loader, name: &str, file: &str) -> String {
-    let taken = |name: &str| {
-        loader
-            .scene
-            .materials
-            .iter()
-            .any(|material| material.name == name)
-    };
+    let taken = |name: &str| loader.scene.materials.iter().any(|material| material.name == name);
     let mut unique = name.to_owned();
     while taken(&unique) {
         unique = format!("{unique} ({file})");
@@ -95,9 +89,7 @@ fn library(loader: &mut Loader, path: &str, obj: &obj::Obj) -> Result<Rc<Library
         }
     }
     let library = Rc::new(library);
-    loader
-        .libraries
-        .insert(path.to_owned(), Rc::clone(&library));
+    loader.libraries.insert(path.to_owned(), Rc::clone(&library));
     Ok(library)
 }
 
@@ -112,10 +104,7 @@ fn library_files(loader: &mut Loader, path: &str, reference: &str) -> Vec<String
             Some(file) => files.push(file),
             None => {
                 let shown = loader.files.display(path);
-                loader.warn(format!(
-                    "{}: the material file \"{reference}\" is missing",
-                    shown.display()
-                ));
+                loader.warn(format!("{}: the material file \"{reference}\" is missing", shown.display()));
                 break;
             }
         }

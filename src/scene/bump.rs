@@ -6,12 +6,7 @@ const HEIGHT: f64 = 0.02;
 
 /// The normals of the height field in the red channel, which repeats in both directions; +y points up the
 /// picture. Heights are white = [`HEIGHT`] × `strength` × width, slopes are central differences.
-pub(super) fn normals(
-    heights: &[[u8; 4]],
-    width: usize,
-    height: usize,
-    strength: f64,
-) -> Vec<[u8; 4]> {
+pub(super) fn normals(heights: &[[u8; 4]], width: usize, height: usize, strength: f64) -> Vec<[u8; 4]> {
     let scale = strength * HEIGHT * width as f64 / 255.0 / 2.0;
     let at = |x: usize, y: usize| f64::from(heights[y % height * width + x % width][0]);
     let texel = |index: usize| {

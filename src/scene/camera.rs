@@ -66,31 +66,20 @@ impl Camera {
     pub fn basis(&self) -> Basis {
         let forward = (self.target - self.position).normalize();
         let right = forward.cross(self.up).normalize();
-        Basis {
-            right,
-            up: right.cross(forward),
-            forward,
-        }
+        Basis { right, up: right.cross(forward), forward }
     }
 
-    /// The camera as it stands at time `t` [s]: key frames interpolated linearly, held at both ends.
+    /// The camera as it stands at time `t`, in seconds: key frames interpolated linearly, held at both ends.
     #[must_use]
     pub fn at(&self, t: f64) -> Self {
         let mut camera = self.clone();
         let after = self.path.partition_point(|key| key.t <= t);
-        let (a, b) = match (
-            after.checked_sub(1).and_then(|i| self.path.get(i)),
-            self.path.get(after),
-        ) {
+        let (a, b) = match (after.checked_sub(1).and_then(|i| self.path.get(i)), self.path.get(after)) {
             (Some(a), Some(b)) => (a, b),
             (Some(key), None) | (None, Some(key)) => (key, key),
             (None, None) => return camera,
         };
-        let s = if b.t > a.t {
-            (t - a.t) / (b.t - a.t)
-        } else {
-            0.0
-        };
+        let s = if b.t > a.t { (t - a.t) / (b.t - a.t) } else { 0.0 };
         camera.position = a.position.lerp(b.position, s);
         camera.target = a.target.lerp(b.target, s);
         camera

@@ -50,13 +50,7 @@ pub(super) struct Textures<'a> {
 
 impl<'a> Textures<'a> {
     pub(super) fn new(files: &'a Files<'a>) -> Self {
-        Self {
-            files,
-            loaded: Vec::new(),
-            index: HashMap::new(),
-            bytes: 0,
-            warnings: Vec::new(),
-        }
+        Self { files, loaded: Vec::new(), index: HashMap::new(), bytes: 0, warnings: Vec::new() }
     }
 
     /// The index of the texture in file `path`, loaded if it is new.
@@ -78,14 +72,9 @@ impl<'a> Textures<'a> {
     }
 
     fn decode(&mut self, path: &str, usage: Use) -> Result<Texture> {
-        let fail = |cause: String, remedy: &str| {
-            Error::input(self.files.display(path), None, cause, remedy)
-        };
+        let fail = |cause: String, remedy: &str| Error::input(self.files.display(path), None, cause, remedy);
         let bytes = self.files.read(path).map_err(|error| {
-            fail(
-                format!("cannot read the texture: {error}"),
-                "check the file's name and rights",
-            )
+            fail(format!("cannot read the texture: {error}"), "check the file's name and rights")
         })?;
         let picture = decode(path, &bytes).map_err(|error| {
             let remedy = match &error {
@@ -97,15 +86,9 @@ impl<'a> Textures<'a> {
         })?;
         let (width, height) = (picture.width(), picture.height());
         if width == 0 || height == 0 {
-            return Err(fail(
-                "the texture has no texels".to_owned(),
-                "use a picture that has some",
-            ));
+            return Err(fail("the texture has no texels".to_owned(), "use a picture that has some"));
         }
-        let float = matches!(
-            picture,
-            DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)
-        );
+        let float = matches!(picture, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
         self.bytes += u64::from(width) * u64::from(height) * if float { 16 } else { 4 };
         if self.bytes > MOST_BYTES {
             return Err(fail(
@@ -116,21 +99,13 @@ impl<'a> Textures<'a> {
         let texels = if float {
             let (texels, repaired) = float_texels(&picture, usage);
             if repaired {
-                self.warnings.push(format!(
-                    "{}: texels that are not finite or negative became 0",
-                    path
-                ));
+                self.warnings.push(format!("{}: texels that are not finite or negative became 0", path));
             }
             texels
         } else {
             byte_texels(picture, usage)
         };
-        Ok(Texture {
-            name: path.to_owned(),
-            width,
-            height,
-            texels,
-        })
+        Ok(Texture { name: path.to_owned(), width, height, texels })
     }
 }
 
@@ -200,11 +175,7 @@ fn byte_texels(picture: DynamicImage, usage: Use) -> Texels {
 /// The texels, and whether any had to be repaired.
 fn float_texels(picture: &DynamicImage, usage: Use) -> (Texels, bool) {
     let mut texels: Vec<[f32; 4]> = picture.to_rgba32f().pixels().map(|pixel| pixel.0).collect();
-    let lowest = if usage == Use::Color {
-        0.0
-    } else {
-        -LARGEST as f32
-    };
+    let lowest = if usage == Use::Color { 0.0 } else { -LARGEST as f32 };
     let mut repaired = false;
     for channel in texels.as_flattened_mut() {
         if !(lowest..=LARGEST as f32).contains(channel) {

@@ -26,12 +26,8 @@ impl<'a> Files<'a> {
         match self {
             Self::Disk(folder) => std::fs::read(folder.join(path)).map(Cow::Owned),
             Self::Embedded(files) => {
-                let found = files
-                    .iter()
-                    .find(|(name, _)| *name == path.trim_start_matches("./"));
-                found
-                    .map(|(_, bytes)| Cow::Borrowed(*bytes))
-                    .ok_or_else(|| io::ErrorKind::NotFound.into())
+                let found = files.iter().find(|(name, _)| *name == path.trim_start_matches("./"));
+                found.map(|(_, bytes)| Cow::Borrowed(*bytes)).ok_or_else(|| io::ErrorKind::NotFound.into())
             }
         }
     }
@@ -45,8 +41,7 @@ impl<'a> Files<'a> {
 
     /// The path of the file that `base` calls `reference`: as written, or with `\` for `/` as on Windows.
     pub(super) fn find(&self, base: &str, reference: &str) -> Option<String> {
-        let candidates =
-            [reference, &reference.replace('\\', "/")].map(|reference| beside(base, reference));
+        let candidates = [reference, &reference.replace('\\', "/")].map(|reference| beside(base, reference));
         candidates.into_iter().find(|path| self.exists(path))
     }
 

@@ -36,16 +36,11 @@ impl Transform {
     /// `rotate` are Euler degrees, x first; `scale` has no zero.
     pub(super) fn new(scale: DVec3, rotate: DVec3, translate: DVec3) -> Self {
         let [x, y, z] = rotate.to_array().map(f64::to_radians);
-        let rotation =
-            DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
+        let rotation = DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
         let rotation = DMat3::from_quat(rotation);
         let linear = rotation * DMat3::from_diagonal(scale);
         // The inverse transpose of R·S is R·S⁻¹.
-        Self {
-            linear,
-            normals: rotation * DMat3::from_diagonal(scale.recip()),
-            translate,
-        }
+        Self { linear, normals: rotation * DMat3::from_diagonal(scale.recip()), translate }
     }
 
     /// False where a coordinate leaves the sane range.
@@ -60,9 +55,7 @@ impl Transform {
         if self.linear.determinant() < 0.0 {
             triangle.swap(1, 2);
         }
-        triangle
-            .iter()
-            .all(|corner| corner.position.abs().max_element() <= LARGEST as f32)
+        triangle.iter().all(|corner| corner.position.abs().max_element() <= LARGEST as f32)
     }
 }
 
@@ -116,17 +109,9 @@ impl Triangle {
         let face = (b - a).cross(c - a).normalize();
         for (corner, position) in self.corners.iter_mut().zip(self.positions) {
             if corner.normal == Vec3::ZERO {
-                let shared = if normals == Normals::Smooth {
-                    smooth[position as usize]
-                } else {
-                    DVec3::ZERO
-                };
+                let shared = if normals == Normals::Smooth { smooth[position as usize] } else { DVec3::ZERO };
                 // Around a sheet with two sides the sum vanishes.
-                let shared = if shared.length() > 1e-6 {
-                    shared.normalize()
-                } else {
-                    face
-                };
+                let shared = if shared.length() > 1e-6 { shared.normalize() } else { face };
                 corner.normal = shared.as_vec3();
             }
         }
@@ -151,11 +136,7 @@ impl Welder {
                 return None;
             }
             let positions = corners.map(|corner| self.position(corner.position));
-            let least = positions
-                .iter()
-                .enumerate()
-                .min_by_key(|(_, p)| **p)
-                .map_or(0, |(i, _)| i);
+            let least = positions.iter().enumerate().min_by_key(|(_, p)| **p).map_or(0, |(i, _)| i);
             let rotated = [0, 1, 2].map(|i| positions[(least + i) % 3]);
             if !degenerate(&corners) && self.seen.insert(rotated) {
                 self.accumulate(&corners, positions);
@@ -166,20 +147,15 @@ impl Welder {
     }
 
     fn position(&mut self, position: Vec3) -> u32 {
-        *self
-            .index
-            .entry(position.to_array().map(f32::to_bits))
-            .or_insert_with(|| {
-                self.sums.push(DVec3::ZERO);
-                self.sums.len() as u32 - 1
-            })
+        *self.index.entry(position.to_array().map(f32::to_bits)).or_insert_with(|| {
+            self.sums.push(DVec3::ZERO);
+            self.sums.len() as u32 - 1
+        })
     }
 
     fn accumulate(&mut self, corners: &[Corner; 3], positions: [u32; 3]) {
         let points = corners.map(|corner| corner.position.as_dvec3());
-        let normal = (points[1] - points[0])
-            .cross(points[2] - points[0])
-            .normalize();
+        let normal = (points[1] - points[0]).cross(points[2] - points[0]).normalize();
         for (i, position) in positions.into_iter().enumerate() {
             self.sums[position as usize] += normal * angle(points, i);
         }
@@ -192,20 +168,14 @@ impl Welder {
 
 /// The angle of a triangle at its corner `i`, in radians.
 pub(super) fn angle(points: [DVec3; 3], i: usize) -> f64 {
-    let (a, b) = (
-        points[(i + 1) % 3] - points[i],
-        points[(i + 2) % 3] - points[i],
-    );
+    let (a, b) = (points[(i + 1) % 3] - points[i], points[(i + 2) % 3] - points[i]);
     a.cross(b).length().atan2(a.dot(b))
 }
 
 /// No area worth the name, even in double precision.
 fn degenerate(corners: &[Corner; 3]) -> bool {
     let [a, b, c] = corners.map(|corner| corner.position.as_dvec3());
-    let longest = a
-        .distance_squared(b)
-        .max(b.distance_squared(c))
-        .max(c.distance_squared(a));
+    let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
     (b - a).cross(c - a).length() <= 1e-12 * longest || longest < f64::from(f32::MIN_POSITIVE)
 }
 
@@ -222,12 +192,10 @@ fn index(triangles: &[Triangle]) -> Mesh {
                 uv: corner.uv.unwrap_or_default(),
             };
             let ([x, y, z], [i, j, k], [u, v]) = (vertex.position, vertex.normal, vertex.uv);
-            *known
-                .entry([x, y, z, i, j, k, u, v].map(f32::to_bits))
-                .or_insert_with(|| {
-                    mesh.vertices.push(vertex);
-                    mesh.vertices.len() as u32 - 1
-                })
+            *known.entry([x, y, z, i, j, k, u, v].map(f32::to_bits)).or_insert_with(|| {
+                mesh.vertices.push(vertex);
+                mesh.vertices.len() as u32 - 1
+            })
         });
         mesh.triangles.push(indices);
     }

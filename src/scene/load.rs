@@ -24,25 +24,11 @@ use crate::error::{Error, Result};
 /// format; [`Error::Usage`] if an override does.
 pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Scene> {
     let bytes = std::fs::read(path).map_err(|error| {
-        Error::input(
-            path,
-            None,
-            format!("cannot read the scene: {error}"),
-            "check the path and its rights",
-        )
+        Error::input(path, None, format!("cannot read the scene: {error}"), "check the path and its rights")
     })?;
     let text = std::str::from_utf8(&bytes).map_err(|error| {
-        let before = bytes
-            .iter()
-            .take(error.valid_up_to())
-            .filter(|byte| **byte == b'\n')
-            .count();
-        Error::input(
-            path,
-            1 + before,
-            "the scene is not UTF-8 text",
-            "save it as UTF-8",
-        )
+        let before = bytes.iter().take(error.valid_up_to()).filter(|byte| **byte == b'\n').count();
+        Error::input(path, 1 + before, "the scene is not UTF-8 text", "save it as UTF-8")
     })?;
     let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
     read(path, text, &Files::Disk(folder), overrides)
@@ -140,10 +126,7 @@ impl<'a> Loader<'a> {
         let index = self.scene.materials.len() as u32;
         let color = material.value(Parameter::Color).constant;
         if material.model != Model::Metal && color.iter().any(|x| *x > 1.0) {
-            self.warn(format!(
-                "the material \"{}\" reflects more light than it receives",
-                material.name
-            ));
+            self.warn(format!("the material \"{}\" reflects more light than it receives", material.name));
         }
         if !self.sealed {
             self.named.insert(material.name.clone(), index);
@@ -157,10 +140,7 @@ impl<'a> Loader<'a> {
         let name = value.string()?;
         self.files.find("", name).ok_or_else(|| {
             let cause = format!("names \"{name}\", which does not exist");
-            value.error(
-                cause,
-                "check the name; paths are relative to the scene file",
-            )
+            value.error(cause, "check the name; paths are relative to the scene file")
         })
     }
 
@@ -192,10 +172,7 @@ impl<'a> Loader<'a> {
         if let Some(obj) = self.objs.get(path) {
             return Ok(Rc::clone(obj));
         }
-        let obj = Rc::new(obj::read(
-            &self.files.display(path),
-            &self.read_lossy(path)?,
-        )?);
+        let obj = Rc::new(obj::read(&self.files.display(path), &self.read_lossy(path)?)?);
         self.objs.insert(path.to_owned(), Rc::clone(&obj));
         Ok(obj)
     }

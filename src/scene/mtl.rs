@@ -24,13 +24,9 @@ use crate::error::{Error, Result};
 const NO_SPECULAR: f32 = 1e-3;
 
 /// Statements of one number, and of one colour.
-const NUMBERS: [&str; 11] = [
-    "ns", "ni", "d", "tr", "illum", "pr", "pm", "pc", "pcr", "ps", "aniso",
-];
+const NUMBERS: [&str; 11] = ["ns", "ni", "d", "tr", "illum", "pr", "pm", "pc", "pcr", "ps", "aniso"];
 const COLORS: [&str; 3] = ["kd", "ks", "ke"];
-const MAPS: [&str; 8] = [
-    "map_kd", "map_ks", "map_pr", "map_pm", "map_d", "norm", "map_bump", "bump",
-];
+const MAPS: [&str; 8] = ["map_kd", "map_ks", "map_pr", "map_pm", "map_d", "norm", "map_bump", "bump"];
 
 /// A `newmtl` as it stands in the file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,18 +56,10 @@ pub(super) fn read(file: &Path, text: &str) -> Result<Vec<Entry>> {
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((&line, ""));
         let (keyword, rest) = (keyword.to_ascii_lowercase(), rest.trim());
         if keyword == "newmtl" {
-            entries.push(Entry {
-                name: rest.to_owned(),
-                ..Entry::default()
-            });
+            entries.push(Entry { name: rest.to_owned(), ..Entry::default() });
         } else if let Some(entry) = entries.last_mut() {
             statement(entry, &keyword, rest).map_err(|cause| {
-                Error::input(
-                    file,
-                    number,
-                    cause,
-                    "correct the line, or export the material again",
-                )
+                Error::input(file, number, cause, "correct the line, or export the material again")
             })?;
         }
     }
@@ -93,36 +81,27 @@ fn statement(entry: &mut Entry, keyword: &str, rest: &str) -> Result<(), String>
             Some([x, y, z]) if COLORS.contains(&key) => [x.max(0.0), y.max(0.0), z.max(0.0)],
             Some([x, ..]) => [x.max(0.0); 3],
             _ => {
-                return Err(format!(
-                    "`{keyword}` needs a finite number, but has \"{rest}\""
-                ));
+                return Err(format!("`{keyword}` needs a finite number, but has \"{rest}\""));
             }
         };
         entry.values.insert(key, value);
     } else if let Some(key) = known(&MAPS) {
-        entry.maps.insert(
-            key,
-            map(rest).ok_or_else(|| format!("`{keyword}` names no file"))?,
-        );
+        entry.maps.insert(key, map(rest).ok_or_else(|| format!("`{keyword}` names no file"))?);
     }
     Ok(())
 }
 
 /// `[-option values]… file name, perhaps with spaces`.
 fn map(rest: &str) -> Option<Map> {
-    let mut map = Map {
-        file: String::new(),
-        strength: 1.0,
-        transformed: false,
-    };
+    let mut map = Map { file: String::new(), strength: 1.0, transformed: false };
     let mut rest = rest;
     while rest.starts_with('-') {
         let (option, tail) = word(rest);
         let most = match option {
             "-o" | "-s" | "-t" => 3,
             "-mm" => 2,
-            "-bm" | "-boost" | "-texres" | "-clamp" | "-blendu" | "-blendv" | "-cc"
-            | "-imfchan" | "-type" => 1,
+            "-bm" | "-boost" | "-texres" | "-clamp" | "-blendu" | "-blendv" | "-cc" | "-imfchan"
+            | "-type" => 1,
             _ => break,
         };
         map.transformed |= most == 3;
@@ -152,12 +131,7 @@ fn word(text: &str) -> (&str, &str) {
 ///
 /// # Errors
 /// [`Error::Input`] if one of its textures is there but cannot be decoded.
-pub(super) fn material(
-    loader: &mut Loader,
-    path: &str,
-    entry: &Entry,
-    name: String,
-) -> Result<Material> {
+pub(super) fn material(loader: &mut Loader, path: &str, entry: &Entry, name: String) -> Result<Material> {
     let mut material = Material {
         name,
         model: model(entry),
@@ -166,19 +140,12 @@ pub(super) fn material(
         two_sided: true,
     };
     constants(entry, &mut material);
-    let bump = entry
-        .maps
-        .get("map_bump")
-        .or_else(|| entry.maps.get("bump"));
+    let bump = entry.maps.get("map_bump").or_else(|| entry.maps.get("bump"));
     let normal = entry.maps.get("norm").or(bump);
     let mut wanted = vec![
         (entry.maps.get("map_kd"), Parameter::Color, Use::Color),
         (entry.maps.get("map_d"), Parameter::Mask, Use::Mask),
-        (
-            normal,
-            Parameter::Normal,
-            Use::Normal(normal.map_or(0, |map| (map.strength * 1000.0) as i32)),
-        ),
+        (normal, Parameter::Normal, Use::Normal(normal.map_or(0, |map| (map.strength * 1000.0) as i32))),
     ];
     match material.model {
         Model::Plastic => wanted.push((entry.maps.get("map_ks"), Parameter::Specular, Use::Color)),
@@ -198,20 +165,12 @@ pub(super) fn material(
 }
 
 fn model(entry: &Entry) -> Model {
-    let pbr = ["pr", "pm", "pc", "pcr", "ps", "aniso"]
-        .iter()
-        .any(|key| entry.values.contains_key(key));
+    let pbr = ["pr", "pm", "pc", "pcr", "ps", "aniso"].iter().any(|key| entry.values.contains_key(key));
     if pbr || entry.maps.contains_key("map_pr") || entry.maps.contains_key("map_pm") {
         return Model::Principled;
     }
-    let diffuse_only = entry
-        .values
-        .get("illum")
-        .is_some_and(|illum| illum[0] < 2.0);
-    let specular = entry
-        .values
-        .get("ks")
-        .is_some_and(|ks| ks.iter().any(|x| *x >= NO_SPECULAR));
+    let diffuse_only = entry.values.get("illum").is_some_and(|illum| illum[0] < 2.0);
+    let specular = entry.values.get("ks").is_some_and(|ks| ks.iter().any(|x| *x >= NO_SPECULAR));
     if diffuse_only || !(specular || entry.maps.contains_key("map_ks")) {
         Model::Matte
     } else {
@@ -222,31 +181,22 @@ fn model(entry: &Entry) -> Model {
 fn constants(entry: &Entry, material: &mut Material) {
     let color = |key: &str, default: f32| entry.values.get(key).copied().unwrap_or([default; 3]);
     let unit = |key: &str, default: f32| color(key, default)[0].min(1.0);
-    let eta = Some(color("ni", 1.5)[0])
-        .filter(|eta| *eta > 1.0)
-        .map_or(1.5, |eta| eta.min(100.0));
-    let mut set = |parameter: Parameter, constant| {
-        material.parameters[parameter as usize].constant = constant
-    };
+    let eta = Some(color("ni", 1.5)[0]).filter(|eta| *eta > 1.0).map_or(1.5, |eta| eta.min(100.0));
+    let mut set =
+        |parameter: Parameter, constant| material.parameters[parameter as usize].constant = constant;
     let scalar = |x: f32| [x, 0.0, 0.0];
     set(Parameter::Color, color("kd", 0.5));
     match material.model {
         Model::Plastic => {
             set(Parameter::Specular, color("ks", 1.0));
             set(Parameter::Eta, scalar(eta));
-            set(
-                Parameter::Roughness,
-                scalar((2.0 / (color("ns", 10.0)[0] + 2.0)).sqrt()),
-            );
+            set(Parameter::Roughness, scalar((2.0 / (color("ns", 10.0)[0] + 2.0)).sqrt()));
             set(Parameter::Aspect, scalar(1.0));
         }
         Model::Principled => {
             set(Parameter::Eta, scalar(eta));
             set(Parameter::Roughness, scalar(unit("pr", 0.5)));
-            set(
-                Parameter::Aspect,
-                scalar((1.0 - 0.9 * unit("aniso", 0.0)).sqrt()),
-            );
+            set(Parameter::Aspect, scalar((1.0 - 0.9 * unit("aniso", 0.0)).sqrt()));
             set(Parameter::Metallic, scalar(unit("pm", 0.0)));
             set(Parameter::Sheen, scalar(unit("ps", 0.0)));
             set(Parameter::SheenTint, scalar(0.5));
@@ -259,26 +209,14 @@ fn constants(entry: &Entry, material: &mut Material) {
 }
 
 /// The texture of `map`; a file that is not there is a warning, since MTL files often travel without them.
-fn texture(
-    loader: &mut Loader,
-    path: &str,
-    entry: &Entry,
-    map: &Map,
-    usage: Use,
-) -> Result<Option<u32>> {
+fn texture(loader: &mut Loader, path: &str, entry: &Entry, map: &Map, usage: Use) -> Result<Option<u32>> {
     let shown = loader.files.display(path);
     let place = format!("{}: material \"{}\"", shown.display(), entry.name);
     if map.transformed {
-        loader.warn(format!(
-            "{place}: -s, -o and -t of the texture \"{}\" are ignored",
-            map.file
-        ));
+        loader.warn(format!("{place}: -s, -o and -t of the texture \"{}\" are ignored", map.file));
     }
     let Some(file) = loader.files.find_nearby(path, &map.file) else {
-        loader.warn(format!(
-            "{place}: the texture \"{}\" is missing; the constant is used",
-            map.file
-        ));
+        loader.warn(format!("{place}: the texture \"{}\" is missing; the constant is used", map.file));
         return Ok(None);
     };
     loader.textures.load(&file, usage).map(Some)
@@ -286,23 +224,11 @@ fn texture(
 
 fn report(loader: &mut Loader, path: &str, entry: &Entry) {
     let value = |key: &str| entry.values.get(key).map(|value| value[0]);
-    let place = format!(
-        "{}: material \"{}\"",
-        loader.files.display(path).display(),
-        entry.name
-    );
-    if entry
-        .values
-        .get("ke")
-        .is_some_and(|ke| ke.iter().any(|x| *x > 0.0))
-    {
-        loader.warn(format!(
-            "{place}: emission (Ke) is ignored; add an area light"
-        ));
+    let place = format!("{}: material \"{}\"", loader.files.display(path).display(), entry.name);
+    if entry.values.get("ke").is_some_and(|ke| ke.iter().any(|x| *x > 0.0)) {
+        loader.warn(format!("{place}: emission (Ke) is ignored; add an area light"));
     }
     if value("d").is_some_and(|d| d < 1.0) || value("tr").is_some_and(|tr| tr > 0.0) {
-        loader.warn(format!(
-            "{place}: transparency (d, Tr) is ignored; the surface is opaque"
-        ));
+        loader.warn(format!("{place}: transparency (d, Tr) is ignored; the surface is opaque"));
     }
 }

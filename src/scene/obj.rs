@@ -32,47 +32,24 @@ pub(super) struct Obj {
 pub(super) fn read(file: &Path, text: &str) -> Result<Obj> {
     let mut scan = Scan::default();
     for (number, line) in logical_lines(text.trim_start_matches('\u{feff}')) {
-        scan.line(&line)
-            .map_err(|(cause, remedy)| Error::input(file, number, cause, remedy))?;
+        scan.line(&line).map_err(|(cause, remedy)| Error::input(file, number, cause, remedy))?;
     }
     if scan.tags.is_empty() {
-        return Err(Error::input(
-            file,
-            None,
-            "the OBJ has no faces",
-            "export the model as a polygon mesh",
-        ));
+        return Err(Error::input(file, None, "the OBJ has no faces", "export the model as a polygon mesh"));
     }
     let models = plain_models(&scan).map_err(|error| {
-        Error::input(
-            file,
-            None,
-            format!("tobj cannot read the OBJ: {error}"),
-            "export the model again",
-        )
+        Error::input(file, None, format!("tobj cannot read the OBJ: {error}"), "export the model again")
     })?;
-    Ok(Obj {
-        groups: groups(&scan, &models),
-        libraries: scan.libraries,
-    })
+    Ok(Obj { groups: groups(&scan, &models), libraries: scan.libraries })
 }
 
 fn plain_models(scan: &Scan) -> Result<Vec<tobj::Model>, tobj::LoadError> {
-    let options = tobj::LoadOptions {
-        single_index: true,
-        ..Default::default()
-    };
+    let options = tobj::LoadOptions { single_index: true, ..Default::default() };
     let library = |_: &Path| -> tobj::MTLLoadResult {
         let names = (0..scan.tags.len()).map(|tag| tag.to_string());
-        let material = |name: &String| tobj::Material {
-            name: name.clone(),
-            ..Default::default()
-        };
+        let material = |name: &String| tobj::Material { name: name.clone(), ..Default::default() };
         let materials = names.clone().map(|name| material(&name)).collect();
-        Ok((
-            materials,
-            names.enumerate().map(|(tag, name)| (name, tag)).collect(),
-        ))
+        Ok((materials, names.enumerate().map(|(tag, name)| (name, tag)).collect()))
     };
     let mut text = b"mtllib tags\n".chain(scan.plain.as_bytes());
     tobj::load_obj_buf(&mut text, &options, library).map(|(models, _)| models)
@@ -86,10 +63,7 @@ fn groups(scan: &Scan, models: &[tobj::Model]) -> Vec<Group> {
             continue;
         };
         let place = *places.entry(*material).or_insert_with(|| {
-            groups.push(Group {
-                material: material.map(|m| scan.materials[m].clone()),
-                corners: Vec::new(),
-            });
+            groups.push(Group { material: material.map(|m| scan.materials[m].clone()), corners: Vec::new() });
             groups.len() - 1
         });
         append(&mut groups[place].corners, mesh);
@@ -99,24 +73,17 @@ fn groups(scan: &Scan, models: &[tobj::Model]) -> Vec<Group> {
 
 /// Triangulates the polygons of `mesh`, whose vertices have all attributes that the mesh has.
 fn append(corners: &mut Vec<Corner>, mesh: &tobj::Mesh) {
-    let three =
-        |values: &[f32], index: usize| values.get(index * 3..index * 3 + 3).map(Vec3::from_slice);
+    let three = |values: &[f32], index: usize| values.get(index * 3..index * 3 + 3).map(Vec3::from_slice);
     let corner = |index: &u32| Corner {
         position: three(&mesh.positions, *index as usize).unwrap_or_default(),
         normal: three(&mesh.normals, *index as usize).unwrap_or_default(),
-        uv: mesh
-            .texcoords
-            .get(*index as usize * 2..*index as usize * 2 + 2)
-            .map(|uv| [uv[0], uv[1]]),
+        uv: mesh.texcoords.get(*index as usize * 2..*index as usize * 2 + 2).map(|uv| [uv[0], uv[1]]),
     };
     let mut rest = mesh.indices.as_slice();
     let mut arities = mesh.face_arities.iter();
     while !rest.is_empty() {
         // tobj leaves the arities out where all faces are triangles.
-        let arity = arities
-            .next()
-            .map_or(3, |arity| *arity as usize)
-            .min(rest.len());
+        let arity = arities.next().map_or(3, |arity| *arity as usize).min(rest.len());
         let (face, tail) = rest.split_at(arity);
         rest = tail;
         let face: Vec<Corner> = face.iter().map(corner).collect();

@@ -70,21 +70,12 @@ impl Scan {
 
     /// `v`, `vt` or `vn`: the first `count` numbers. What may follow (weights, colours, a third texture
     /// coordinate) has no meaning here.
-    fn numbers(
-        &mut self,
-        attribute: usize,
-        keyword: &str,
-        rest: &str,
-        count: usize,
-    ) -> Result<(), Bad> {
+    fn numbers(&mut self, attribute: usize, keyword: &str, rest: &str, count: usize) -> Result<(), Bad> {
         let mut values = [0.0_f32; 3];
         let mut found = 0;
         for (value, token) in values.iter_mut().zip(rest.split_whitespace()).take(count) {
             *value = number(token).ok_or_else(|| {
-                (
-                    format!("`{keyword}` has \"{token}\", which is not a number"),
-                    "write numbers",
-                )
+                (format!("`{keyword}` has \"{token}\", which is not a number"), "write numbers")
             })?;
             found += 1;
         }
@@ -123,10 +114,7 @@ impl Scan {
     fn face(&mut self, rest: &str) -> Result<(), Bad> {
         let mut face = std::mem::take(&mut self.face);
         face.clear();
-        for token in rest
-            .split_whitespace()
-            .take_while(|token| !token.starts_with('#'))
-        {
+        for token in rest.split_whitespace().take_while(|token| !token.starts_with('#')) {
             face.push(self.corner(token)?);
         }
         if face.len() >= 3 {
@@ -141,12 +129,7 @@ impl Scan {
     /// 0-based indices of position, texture coordinates and normal in `1/2/3`.
     fn corner(&self, token: &str) -> Result<[Option<usize>; 3], Bad> {
         const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
-        let bad = || {
-            (
-                format!("`f` has the corner \"{token}\""),
-                "write corners as 1, 1/2, 1//3 or 1/2/3",
-            )
-        };
+        let bad = || (format!("`f` has the corner \"{token}\""), "write corners as 1, 1/2, 1//3 or 1/2/3");
         let mut corner = [None; 3];
         for (attribute, part) in token.split('/').enumerate() {
             let count = *self.counts.get(attribute).ok_or_else(bad)?;
@@ -154,24 +137,15 @@ impl Scan {
                 continue;
             }
             let index = part.parse::<i64>().map_err(|_| bad())?;
-            let absolute = if index < 0 {
-                count as i64 + index
-            } else {
-                index - 1
-            };
-            let absolute = usize::try_from(absolute)
-                .ok()
-                .filter(|absolute| *absolute < count);
+            let absolute = if index < 0 { count as i64 + index } else { index - 1 };
+            let absolute = usize::try_from(absolute).ok().filter(|absolute| *absolute < count);
             corner[attribute] = Some(absolute.ok_or_else(|| {
-                let cause = format!("`f` refers to {} {index}, but {count} are defined before it", KINDS[attribute]);
+                let cause =
+                    format!("`f` refers to {} {index}, but {count} are defined before it", KINDS[attribute]);
                 (cause, "use indices from 1 to that number, or from -1 downwards; the file may be cut off")
             })?);
         }
-        if corner[0].is_none() {
-            Err(bad())
-        } else {
-            Ok(corner)
-        }
+        if corner[0].is_none() { Err(bad()) } else { Ok(corner) }
     }
 
     fn switch_tag(&mut self, key: (Option<usize>, bool, bool)) {

@@ -21,14 +21,11 @@ pub(super) struct Plane {
 impl Plane {
     /// The plane through `outer`, whose normal is its Newell normal, or the reason why the loop is unusable.
     pub(super) fn new(outer: &[DVec3]) -> Result<Self, String> {
-        let (low, high) = outer.iter().fold((outer[0], outer[0]), |(low, high), p| {
-            (low.min(*p), high.max(*p))
-        });
+        let (low, high) =
+            outer.iter().fold((outer[0], outer[0]), |(low, high), p| (low.min(*p), high.max(*p)));
         let extent = (high - low).max_element();
         let origin = outer.iter().sum::<DVec3>() / outer.len() as f64;
-        let normal: DVec3 = edges(outer)
-            .map(|(a, b)| (a - origin).cross(b - origin))
-            .sum();
+        let normal: DVec3 = edges(outer).map(|(a, b)| (a - origin).cross(b - origin)).sum();
         // Coordinates end as float32, so an area below their resolution is none.
         if extent <= 1e-6 * high.abs().max(low.abs()).max_element()
             || normal.length() <= 1e-9 * extent * extent
@@ -36,12 +33,7 @@ impl Plane {
             return Err("encloses no area".to_owned());
         }
         let normal = normal.normalize();
-        let plane = Self {
-            origin,
-            normal,
-            u: normal.any_orthonormal_vector(),
-            extent,
-        };
+        let plane = Self { origin, normal, u: normal.any_orthonormal_vector(), extent };
         plane.check_loop(outer)?;
         Ok(plane)
     }
@@ -92,22 +84,15 @@ impl Plane {
 
     fn flatten(&self, points: &[DVec3]) -> Vec<DVec2> {
         let v = self.normal.cross(self.u);
-        let flat = |point: &DVec3| {
-            DVec2::new(
-                (*point - self.origin).dot(self.u),
-                (*point - self.origin).dot(v),
-            )
-        };
+        let flat =
+            |point: &DVec3| DVec2::new((*point - self.origin).dot(self.u), (*point - self.origin).dot(v));
         points.iter().map(flat).collect()
     }
 }
 
 /// The edges of a closed loop.
 fn edges<T: Copy>(points: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
-    points
-        .iter()
-        .copied()
-        .zip(points.iter().copied().cycle().skip(1))
+    points.iter().copied().zip(points.iter().copied().cycle().skip(1))
 }
 
 /// Two edges that properly cross, if any do.

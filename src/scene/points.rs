@@ -19,16 +19,12 @@ const COLUMNS: [&str; 7] = ["x", "y", "z", "r", "g", "b", "range"];
 /// # Errors
 /// [`Error::Input`] with the line of a wrong header, field count or number.
 pub(super) fn read_csv(file: &Path, text: &str) -> Result<Vec<PointLight>> {
-    let lines = text
-        .lines()
-        .enumerate()
-        .map(|(index, line)| (index + 1, line.trim()));
+    let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
     let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     let Some((number, header)) = lines.next() else {
         return Err(Error::input(file, 1, "the file is empty", HEADER_REMEDY));
     };
-    let columns =
-        columns(header).map_err(|cause| Error::input(file, number, cause, HEADER_REMEDY))?;
+    let columns = columns(header).map_err(|cause| Error::input(file, number, cause, HEADER_REMEDY))?;
     let light = |(number, line)| {
         row(line, &columns).map_err(|cause| {
             let remedy = "write finite numbers: x,y,z in metres, r,g,b ≥ 0, range > 0 or empty";
@@ -41,10 +37,7 @@ pub(super) fn read_csv(file: &Path, text: &str) -> Result<Vec<PointLight>> {
 /// For each column of the file, its place in [`COLUMNS`].
 fn columns(header: &str) -> Result<Vec<usize>, String> {
     let mut columns = Vec::new();
-    for name in header
-        .split(',')
-        .map(|name| name.trim().to_ascii_lowercase())
-    {
+    for name in header.split(',').map(|name| name.trim().to_ascii_lowercase()) {
         let place = COLUMNS.iter().position(|column| *column == name);
         let place = place.ok_or_else(|| format!("the header has an unknown column `{name}`"))?;
         if columns.contains(&place) {
@@ -53,10 +46,7 @@ fn columns(header: &str) -> Result<Vec<usize>, String> {
         columns.push(place);
     }
     match (0..6).find(|place| !columns.contains(place)) {
-        Some(missing) => Err(format!(
-            "the header lacks the column `{}`",
-            COLUMNS[missing]
-        )),
+        Some(missing) => Err(format!("the header lacks the column `{}`", COLUMNS[missing])),
         None => Ok(columns),
     }
 }
@@ -71,18 +61,11 @@ fn row(line: &str, columns: &[usize]) -> Result<PointLight, String> {
         }
     }
     if count != columns.len() {
-        return Err(format!(
-            "the line has {count} fields, the header {}",
-            columns.len()
-        ));
+        return Err(format!("the line has {count} fields, the header {}", columns.len()));
     }
     let [x, y, z, r, g, b, range] = values;
     let range = (range > 0.0).then_some(range);
-    Ok(PointLight {
-        position: Vec3::new(x, y, z),
-        intensity: Vec3::new(r, g, b),
-        range,
-    })
+    Ok(PointLight { position: Vec3::new(x, y, z), intensity: Vec3::new(r, g, b), range })
 }
 
 /// The number in column `place`; a range of 0 stands for none.
@@ -91,16 +74,13 @@ fn value(field: &str, place: usize) -> Result<f32, String> {
     if name == "range" && field.is_empty() {
         return Ok(0.0);
     }
-    let number = field
-        .parse::<f64>()
-        .map_err(|_| format!("`{name}` is \"{field}\", which is not a number"))?;
+    let number =
+        field.parse::<f64>().map_err(|_| format!("`{name}` is \"{field}\", which is not a number"))?;
     if name == "range" && number == f64::INFINITY {
         return Ok(0.0);
     }
     if number.is_nan() || number.abs() > LARGEST {
-        return Err(format!(
-            "`{name}` is {number}, which is not a finite number within ±{LARGEST:e}"
-        ));
+        return Err(format!("`{name}` is {number}, which is not a finite number within ±{LARGEST:e}"));
     }
     if place >= 3 && number < 0.0 {
         return Err(format!("`{name}` is negative: {number}"));
@@ -139,11 +119,7 @@ impl Generator {
         let light = |_| {
             let (x, z, y) = (next(), next(), next());
             let hue = next();
-            let intensity = if low < high {
-                low + (high - low) * next()
-            } else {
-                low
-            };
+            let intensity = if low < high { low + (high - low) * next() } else { low };
             PointLight {
                 position: (self.min + size * DVec3::new(x, y, z)).as_vec3(),
                 intensity: (hsv(hue, 0.8) * intensity).as_vec3(),

@@ -7,19 +7,12 @@ use glam::{DVec3, Vec3};
 use super::geometry::{Corner, Group};
 
 fn corner(position: DVec3, normal: DVec3, u: f64, v: f64) -> Corner {
-    Corner {
-        position: position.as_vec3(),
-        normal: normal.as_vec3(),
-        uv: Some([u as f32, v as f32]),
-    }
+    Corner { position: position.as_vec3(), normal: normal.as_vec3(), uv: Some([u as f32, v as f32]) }
 }
 
 /// Without a material name.
 fn group(corners: Vec<Corner>) -> Group {
-    Group {
-        material: None,
-        corners,
-    }
+    Group { material: None, corners }
 }
 
 /// Two triangles: centre ± `u` ± `v`, facing u × v, the texture's u along `u`.
@@ -38,23 +31,10 @@ pub(super) fn plane(size: [f64; 2]) -> Group {
 
 /// A box of edge lengths `size`; every face has the whole texture, upright on the four sides.
 pub(super) fn cuboid(size: [f64; 3]) -> Group {
-    let [x, y, z] =
-        [DVec3::X * size[0], DVec3::Y * size[1], DVec3::Z * size[2]].map(|axis| axis * 0.5);
+    let [x, y, z] = [DVec3::X * size[0], DVec3::Y * size[1], DVec3::Z * size[2]].map(|axis| axis * 0.5);
     // Per face: outwards, u, v, with u × v pointing outwards.
-    let faces = [
-        (x, -z, y),
-        (-x, z, y),
-        (y, x, -z),
-        (-y, x, z),
-        (z, x, y),
-        (-z, -x, y),
-    ];
-    group(
-        faces
-            .into_iter()
-            .flat_map(|(out, u, v)| quad(out, u, v))
-            .collect(),
-    )
+    let faces = [(x, -z, y), (-x, z, y), (y, x, -z), (-y, x, z), (z, x, y), (-z, -x, y)];
+    group(faces.into_iter().flat_map(|(out, u, v)| quad(out, u, v)).collect())
 }
 
 /// A UV sphere of `segments` along longitude and latitude; u runs eastwards from +Z over +X, v from the south
@@ -65,18 +45,9 @@ pub(super) fn sphere(radius: f64, segments: [u32; 2]) -> Group {
         // The last meridian is the first one, to the bit.
         let phi = TAU * f64::from(i % longitudes) / f64::from(longitudes);
         let theta = PI * f64::from(j) / f64::from(latitudes);
-        let ring = if j == 0 || j == latitudes {
-            0.0
-        } else {
-            theta.sin()
-        };
+        let ring = if j == 0 || j == latitudes { 0.0 } else { theta.sin() };
         let normal = DVec3::new(ring * phi.sin(), -theta.cos(), ring * phi.cos());
-        corner(
-            normal * radius,
-            normal,
-            u / f64::from(longitudes),
-            f64::from(j) / f64::from(latitudes),
-        )
+        corner(normal * radius, normal, u / f64::from(longitudes), f64::from(j) / f64::from(latitudes))
     };
     let mut corners = Vec::new();
     for j in 0..latitudes {
@@ -99,21 +70,8 @@ pub(super) fn sphere(radius: f64, segments: [u32; 2]) -> Group {
 pub(super) fn disk(radius: f64, segments: u32) -> Group {
     let at = |i: u32| {
         let (sin, cos) = (TAU * f64::from(i % segments) / f64::from(segments)).sin_cos();
-        corner(
-            DVec3::new(cos, 0.0, -sin) * radius,
-            DVec3::Y,
-            0.5 + 0.5 * cos,
-            0.5 + 0.5 * sin,
-        )
+        corner(DVec3::new(cos, 0.0, -sin) * radius, DVec3::Y, 0.5 + 0.5 * cos, 0.5 + 0.5 * sin)
     };
-    let center = Corner {
-        position: Vec3::ZERO,
-        normal: Vec3::Y,
-        uv: Some([0.5, 0.5]),
-    };
-    group(
-        (0..segments)
-            .flat_map(|i| [center, at(i), at(i + 1)])
-            .collect(),
-    )
+    let center = Corner { position: Vec3::ZERO, normal: Vec3::Y, uv: Some([0.5, 0.5]) };
+    group((0..segments).flat_map(|i| [center, at(i), at(i + 1)]).collect())
 }

@@ -21,11 +21,7 @@ pub(super) fn add(mesh: &mut Mesh) {
         };
         for i in 0..3 {
             let normal = Vec3::from(vertices[i].normal).as_dvec3();
-            let sign = if normal.cross(along_u).dot(along_v) < 0.0 {
-                -1
-            } else {
-                1
-            };
+            let sign = if normal.cross(along_u).dot(along_v) < 0.0 { -1 } else { 1 };
             let mut index = triangle[i] as usize;
             if signs[index] == -sign {
                 index = *twins[index].get_or_insert(mesh.vertices.len() as u32) as usize;
@@ -56,12 +52,7 @@ pub(super) fn add(mesh: &mut Mesh) {
 fn derivatives(points: [DVec3; 3], uvs: [[f32; 2]; 3]) -> Option<(DVec3, DVec3)> {
     let (e1, e2) = (points[1] - points[0], points[2] - points[0]);
     let difference = |i: usize, axis: usize| f64::from(uvs[i][axis]) - f64::from(uvs[0][axis]);
-    let (u1, u2, v1, v2) = (
-        difference(1, 0),
-        difference(2, 0),
-        difference(1, 1),
-        difference(2, 1),
-    );
+    let (u1, u2, v1, v2) = (difference(1, 0), difference(2, 0), difference(1, 1), difference(2, 1));
     let determinant = u1 * v2 - u2 * v1;
     if determinant.abs() <= 1e-12 * (u1.hypot(v1) * u2.hypot(v2)) {
         return None;

@@ -30,10 +30,7 @@ fn albedos_of_the_tables() {
             worst = worst.max(error);
             angles.insert(figure.wo.z.to_bits());
         }
-        assert!(
-            chosen.len() >= 12 && angles.len() >= 4,
-            "{model}: too few figures"
-        );
+        assert!(chosen.len() >= 12 && angles.len() >= 4, "{model}: too few figures");
         let (n, angles) = (chosen.len(), angles.len());
         println!("{model}: {n} albedos, {angles} view angles, within {worst:.1e}");
     }
@@ -54,24 +51,14 @@ fn furnace_of_the_roughest_metal_has_a_closed_form() {
     let gpu = CheckedGpu::open();
     let got = albedo(&gpu, &white_metal(Ggx::isotropic(1.0)), DVec3::Z);
     let want = 1.0 - std::f64::consts::LN_2;
-    assert!(
-        (got - want).abs().max_element() < 1e-4,
-        "{got} against {want}"
-    );
+    assert!((got - want).abs().max_element() < 1e-4, "{got} against {want}");
     gpu.finish();
 }
 
 fn albedo(gpu: &CheckedGpu, bsdf: &Bsdf, wo: DVec3) -> DVec3 {
     let place = |wi: DVec3| wi.as_vec3().as_dvec3();
     let points = quadrature(bsdf, wo, POINTS, place);
-    let cases: Vec<_> = points
-        .iter()
-        .map(|&(wi, _)| Case::new(bsdf, wo, wi))
-        .collect();
+    let cases: Vec<_> = points.iter().map(|&(wi, _)| Case::new(bsdf, wo, wi)).collect();
     let values = eval(gpu, &cases, Variant::trimmed);
-    points
-        .iter()
-        .zip(values)
-        .map(|(&(_, weight), f)| f * weight)
-        .sum()
+    points.iter().zip(values).map(|(&(_, weight), f)| f * weight).sum()
 }

@@ -19,8 +19,7 @@ fn reciprocity() {
         let back = eval(&gpu, &swapped, Variant::general);
         let mut worst: f64 = 0.0;
         for ((case, there), back) in cases.iter().zip(there).zip(back) {
-            let relative =
-                ((there - back).abs() / there.max(back).max(DVec3::splat(1e-30))).max_element();
+            let relative = ((there - back).abs() / there.max(back).max(DVec3::splat(1e-30))).max_element();
             assert!(
                 relative <= RECIPROCITY,
                 "{name}: {case}\n  f {there:?}\n  swapped {back:?}\n  relative error {relative:.2e}"
@@ -48,13 +47,7 @@ fn no_value_is_negative_or_not_finite() {
 }
 
 fn require_radiometric(name: &str, case: &Case, f: DVec3) {
-    assert!(
-        f.is_finite() && f.min_element() >= 0.0,
-        "{name}: {case}\n  f {f:?}"
-    );
+    assert!(f.is_finite() && f.min_element() >= 0.0, "{name}: {case}\n  f {f:?}");
     let lit = case.wo.z > 0.0 && case.wi.z > 0.0;
-    assert!(
-        lit || f == DVec3::ZERO,
-        "{name}: {case}\n  f {f:?} below the surface"
-    );
+    assert!(lit || f == DVec3::ZERO, "{name}: {case}\n  f {f:?} below the surface");
 }

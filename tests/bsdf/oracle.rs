@@ -19,8 +19,7 @@ fn device_and_oracle_agree() {
         for (choice, choose) in Variant::CHOICES {
             let mut worst: f64 = 0.0;
             for (case, got) in cases.iter().zip(eval(&gpu, &cases, choose)) {
-                worst =
-                    worst.max(share(case, got).unwrap_or_else(|e| panic!("{name}, {choice}: {e}")));
+                worst = worst.max(share(case, got).unwrap_or_else(|e| panic!("{name}, {choice}: {e}")));
             }
             println!("{name}, {choice}: worst at {worst:.3} of the bound");
         }
@@ -49,11 +48,7 @@ fn input_rounding(case: &Case, want: DVec3) -> DVec3 {
     let here = raw(case);
     let moves = (0..6).map(|axis| {
         let mut moved = *case;
-        let direction = if axis < 3 {
-            &mut moved.wo
-        } else {
-            &mut moved.wi
-        };
+        let direction = if axis < 3 { &mut moved.wo } else { &mut moved.wi };
         direction[axis % 3] *= 1.0 + f64::from(f32::EPSILON) / 2.0;
         (raw(&moved) - here).abs()
     });
@@ -64,9 +59,7 @@ fn input_rounding(case: &Case, want: DVec3) -> DVec3 {
 /// eta² − sin²θ, of which float32 keeps no digit. No metal is like that, and the values are still finite.
 fn singular(bsdf: &Bsdf) -> bool {
     match bsdf {
-        Bsdf::Metal(m) => {
-            m.eta.cmplt(DVec3::splat(0.05)).any() && m.k.cmplt(DVec3::splat(0.05)).any()
-        }
+        Bsdf::Metal(m) => m.eta.cmplt(DVec3::splat(0.05)).any() && m.k.cmplt(DVec3::splat(0.05)).any(),
         _ => false,
     }
 }

@@ -21,11 +21,7 @@ pub(crate) struct Case {
 impl Case {
     /// Rounds every number to float32.
     pub(crate) fn new(bsdf: &Bsdf, wo: DVec3, wi: DVec3) -> Self {
-        Self {
-            bsdf: rounded(bsdf),
-            wo: round3(wo),
-            wi: round3(wi),
-        }
+        Self { bsdf: rounded(bsdf), wo: round3(wo), wi: round3(wi) }
     }
 
     /// f of the oracle, which needs directions of unit length.
@@ -34,19 +30,11 @@ impl Case {
     }
 
     pub(crate) fn swapped(self) -> Self {
-        Self {
-            wo: self.wi,
-            wi: self.wo,
-            ..self
-        }
+        Self { wo: self.wi, wi: self.wo, ..self }
     }
 
     fn row(&self) -> BsdfProbeRow {
-        let row = BsdfProbeRow {
-            wo: pack(self.wo, 0.0),
-            wi: pack(self.wi, 0.0),
-            ..BsdfProbeRow::default()
-        };
+        let row = BsdfProbeRow { wo: pack(self.wo, 0.0), wi: pack(self.wi, 0.0), ..BsdfProbeRow::default() };
         match &self.bsdf {
             Bsdf::Matte(m) => BsdfProbeRow {
                 color_alpha_x: pack(m.color, 0.0),
@@ -107,29 +95,19 @@ fn round3(v: DVec3) -> DVec3 {
 }
 
 fn round_ggx(ggx: Ggx) -> Ggx {
-    Ggx {
-        alpha_x: round(ggx.alpha_x),
-        alpha_y: round(ggx.alpha_y),
-    }
+    Ggx { alpha_x: round(ggx.alpha_x), alpha_y: round(ggx.alpha_y) }
 }
 
 fn rounded(bsdf: &Bsdf) -> Bsdf {
     match *bsdf {
-        Bsdf::Matte(m) => Bsdf::Matte(Matte {
-            color: round3(m.color),
-            sigma: round(m.sigma),
-        }),
+        Bsdf::Matte(m) => Bsdf::Matte(Matte { color: round3(m.color), sigma: round(m.sigma) }),
         Bsdf::Plastic(m) => Bsdf::Plastic(Plastic {
             diffuse: round3(m.diffuse),
             specular: round3(m.specular),
             eta: round(m.eta),
             alpha: round(m.alpha),
         }),
-        Bsdf::Metal(m) => Bsdf::Metal(Metal {
-            eta: round3(m.eta),
-            k: round3(m.k),
-            ggx: round_ggx(m.ggx),
-        }),
+        Bsdf::Metal(m) => Bsdf::Metal(Metal { eta: round3(m.eta), k: round3(m.k), ggx: round_ggx(m.ggx) }),
         Bsdf::Substrate(m) => Bsdf::Substrate(Substrate {
             diffuse: round3(m.diffuse),
             specular: round3(m.specular),
@@ -164,16 +142,12 @@ pub(crate) struct Variant {
 
 impl Variant {
     /// Both ways to specialise, by name.
-    pub(crate) const CHOICES: [(&str, Choice); 2] =
-        [("general", Self::general), ("trimmed", Self::trimmed)];
+    pub(crate) const CHOICES: [(&str, Choice); 2] = [("general", Self::general), ("trimmed", Self::trimmed)];
 
     /// Everything compiled in.
     pub(crate) fn general(bsdf: &Bsdf) -> Self {
         let trimmed = Self::trimmed(bsdf);
-        Self {
-            parts: trimmed.parts.map(|(id, _)| (id, true)),
-            ..trimmed
-        }
+        Self { parts: trimmed.parts.map(|(id, _)| (id, true)), ..trimmed }
     }
 
     /// Only what this BSDF needs, as the renderer would specialise it.
@@ -213,9 +187,7 @@ impl Variant {
 
     fn specialization(&self) -> Specialization {
         let model = Specialization::default().with(shared::SPEC_MODEL, self.model);
-        self.parts
-            .iter()
-            .fold(model, |all, &(id, on)| all.with(id, u32::from(on)))
+        self.parts.iter().fold(model, |all, &(id, on)| all.with(id, u32::from(on)))
     }
 }
 
@@ -229,8 +201,7 @@ pub(crate) fn eval(gpu: &CheckedGpu, cases: &[Case], choose: Choice) -> Vec<DVec
     for (variant, members) in groups {
         let rows: Vec<_> = members.iter().map(|&i| cases[i].row()).collect();
         let constants = variant.specialization();
-        let got: Vec<[f32; 4]> =
-            amas::probe::run(gpu, shaders::PROBE_BSDF_COMP, &constants, &rows).unwrap();
+        let got: Vec<[f32; 4]> = amas::probe::run(gpu, shaders::PROBE_BSDF_COMP, &constants, &rows).unwrap();
         for (i, value) in members.into_iter().zip(got) {
             values[i] = Vec3::from_slice(&value).as_dvec3();
         }

@@ -19,16 +19,13 @@ pub(crate) struct Points {
 }
 
 const PRIMES: [f64; 24] = [
-    2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0, 41.0, 43.0, 47.0, 53.0,
-    59.0, 61.0, 67.0, 71.0, 73.0, 79.0, 83.0, 89.0,
+    2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0, 41.0, 43.0, 47.0, 53.0, 59.0, 61.0,
+    67.0, 71.0, 73.0, 79.0, 83.0, 89.0,
 ];
 
 impl Points {
     pub(crate) fn new(index: u32) -> Self {
-        Self {
-            index: f64::from(index) + 1.0,
-            dimension: 0,
-        }
+        Self { index: f64::from(index) + 1.0, dimension: 0 }
     }
 
     /// The next coordinate, in [0, 1).
@@ -61,10 +58,7 @@ impl Points {
     fn ggx(&mut self) -> Ggx {
         let alpha_x = self.ratio(1e-3, 1.0);
         let (other, same) = (self.ratio(1e-3, 1.0), self.next() < 0.5);
-        Ggx {
-            alpha_x,
-            alpha_y: if same { alpha_x } else { other },
-        }
+        Ggx { alpha_x, alpha_y: if same { alpha_x } else { other } }
     }
 
     /// Below 1, exactly 1, and up to 3.
@@ -83,26 +77,15 @@ pub(crate) fn case(model: usize, index: u32) -> Case {
 
 fn material(model: usize, p: &mut Points) -> Bsdf {
     match MODEL_NAMES[model] {
-        "matte" => Bsdf::Matte(Matte {
-            color: p.color(),
-            sigma: 90.0 * p.unit(),
-        }),
+        "matte" => Bsdf::Matte(Matte { color: p.color(), sigma: 90.0 * p.unit() }),
         "plastic" => Bsdf::Plastic(Plastic {
             diffuse: p.color(),
             specular: p.color(),
             eta: p.eta(),
             alpha: p.ratio(1e-3, 1.0),
         }),
-        "metal" => Bsdf::Metal(Metal {
-            eta: 3.0 * p.color(),
-            k: 8.0 * p.color(),
-            ggx: p.ggx(),
-        }),
-        "substrate" => Bsdf::Substrate(Substrate {
-            diffuse: p.color(),
-            specular: p.color(),
-            ggx: p.ggx(),
-        }),
+        "metal" => Bsdf::Metal(Metal { eta: 3.0 * p.color(), k: 8.0 * p.color(), ggx: p.ggx() }),
+        "substrate" => Bsdf::Substrate(Substrate { diffuse: p.color(), specular: p.color(), ggx: p.ggx() }),
         _ => principled(p),
     }
 }
@@ -115,10 +98,7 @@ fn principled(p: &mut Points) -> Bsdf {
         metallic: p.unit(),
         eta: p.eta(),
         roughness,
-        ggx: Ggx {
-            alpha_x: (alpha / aspect).max(1e-3),
-            alpha_y: (alpha * aspect).max(1e-3),
-        },
+        ggx: Ggx { alpha_x: (alpha / aspect).max(1e-3), alpha_y: (alpha * aspect).max(1e-3) },
         specular_tint: p.unit(),
         sheen: p.unit(),
         sheen_tint: p.unit(),
@@ -143,9 +123,7 @@ fn directions(p: &mut Points) -> (DVec3, DVec3) {
         1 | 5 => at_cosine(grazing(b), phi_i),
         2 | 6 => turned(mirror, 1e-5_f64.powf(b)),
         3 => turned(wo, 1e-5_f64.powf(b)),
-        _ => *[wo, mirror, DVec3::Z, turned(DVec3::Z, 1e-5_f64.powf(b))]
-            .get((b * 4.0) as usize)
-            .unwrap(),
+        _ => *[wo, mirror, DVec3::Z, turned(DVec3::Z, 1e-5_f64.powf(b))].get((b * 4.0) as usize).unwrap(),
     };
     (wo, wi)
 }
@@ -177,12 +155,7 @@ pub(crate) fn hostile(model: usize, index: u32) -> Case {
         6 => (flat(wo, 1e-6), flat(wo, 1e-6)),
         7 => (flat(wo, 1e-30), flat(wi, 1e-20)),
         8 => (wo, DVec3::ZERO),
-        _ => (
-            DVec3::Z,
-            *[DVec3::Z, -DVec3::Z, DVec3::X]
-                .get(index as usize % 3)
-                .unwrap(),
-        ),
+        _ => (DVec3::Z, *[DVec3::Z, -DVec3::Z, DVec3::X].get(index as usize % 3).unwrap()),
     };
     Case::new(&case.bsdf, wo, wi)
 }

@@ -42,10 +42,7 @@ fn check(name: &str) {
         let got = eval(&gpu, &cases, choose);
         let worst = judge(&model, &table, &cases, &got)
             .unwrap_or_else(|failure| panic!("{name}, {choice}: {failure}"));
-        println!(
-            "{name}, {choice}: {} rows, worst at {worst:.3} of the rule",
-            cases.len()
-        );
+        println!("{name}, {choice}: {} rows, worst at {worst:.3} of the rule", cases.len());
     }
     gpu.finish();
 }
@@ -70,11 +67,7 @@ fn judge(model: &TableModel, table: &Table, cases: &[Case], got: &[DVec3]) -> Re
     }
     match failed.first() {
         None => Ok(worst),
-        Some(first) => Err(format!(
-            "{} of {} rows; the first:\n{first}",
-            failed.len(),
-            cases.len()
-        )),
+        Some(first) => Err(format!("{} of {} rows; the first:\n{first}", failed.len(), cases.len())),
     }
 }
 

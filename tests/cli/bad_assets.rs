@@ -26,17 +26,11 @@ fn models() {
     };
     obj("", &["m.obj: ", "no faces"]);
     obj("v 0 0 0\nv 1 0 0\nv 0 1 0\n", &["m.obj: ", "no faces"]);
-    obj(
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
-        &["m.obj:4: ", "vertex 4, but 3"],
-    );
+    obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", &["m.obj:4: ", "vertex 4, but 3"]);
     obj("v 0 0 0\nf 1 1 -3\n", &["m.obj:2: ", "vertex -3"]);
     obj("v 0 nan 0\n", &["m.obj:1: ", "not finite"]);
     obj("v 0 zero 0\n", &["m.obj:1: ", "zero"]);
-    obj(
-        "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",
-        &["scene.toml:", "no triangle with an area"],
-    );
+    obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", &["scene.toml:", "no triangle with an area"]);
 }
 
 #[test]
@@ -49,18 +43,9 @@ fn lists_of_lights() {
     csv(b"", &["l.csv:1: ", "empty"]);
     csv(b"x,y,z,r,g,b\n", &["l.csv: ", "no lights"]);
     csv(b"x,y,z,r,g\n1,2,3,4,5\n", &["l.csv:1: ", "`b`"]);
-    csv(
-        b"x,y,z,r,g,b\n1,2,3,4,5,6\n1,2,3\n",
-        &["l.csv:3: ", "3 fields"],
-    );
-    csv(
-        b"x,y,z,r,g,b\n1,2,3,4,nan,6\n",
-        &["l.csv:2: ", "`g` is NaN"],
-    );
-    csv(
-        b"x,y,z,r,g,b,range\n1,2,3,4,5,6,-1\n",
-        &["l.csv:2: ", "negative"],
-    );
+    csv(b"x,y,z,r,g,b\n1,2,3,4,5,6\n1,2,3\n", &["l.csv:3: ", "3 fields"]);
+    csv(b"x,y,z,r,g,b\n1,2,3,4,nan,6\n", &["l.csv:2: ", "`g` is NaN"]);
+    csv(b"x,y,z,r,g,b,range\n1,2,3,4,5,6,-1\n", &["l.csv:2: ", "negative"]);
     csv(b"\x89PNG\r\n\x1a\n", &["l.csv: ", "UTF-8"]);
     // One more than 2^20.
     let mut many = "x,y,z,r,g,b\n".to_owned();
@@ -70,9 +55,7 @@ fn lists_of_lights() {
 
 #[test]
 fn textures() {
-    let whole = png(16, 16, |x, y| {
-        [(16 * x) as u8, (16 * y) as u8, (x * y) as u8, 255]
-    });
+    let whole = png(16, 16, |x, y| [(16 * x) as u8, (16 * y) as u8, (x * y) as u8, 255]);
     texture("t.png", &whole[..whole.len() / 2], &["cannot decode"]);
     texture("t.png", b"", &["cannot decode"]);
     texture("t.png", b"not a picture at all", &["cannot decode"]);
@@ -86,13 +69,10 @@ fn textures() {
 
 #[test]
 fn jpegs() {
-    let picture = image::RgbImage::from_fn(64, 64, |x, y| {
-        image::Rgb([(4 * x) as u8, (4 * y) as u8, (x * y) as u8])
-    });
+    let picture =
+        image::RgbImage::from_fn(64, 64, |x, y| image::Rgb([(4 * x) as u8, (4 * y) as u8, (x * y) as u8]));
     let mut whole = Vec::new();
-    picture
-        .write_to(&mut Cursor::new(&mut whole), image::ImageFormat::Jpeg)
-        .unwrap();
+    picture.write_to(&mut Cursor::new(&mut whole), image::ImageFormat::Jpeg).unwrap();
     texture("t.jpg", &whole[..100], &["cannot decode"]);
     texture("t.jpg", &whole[..whole.len() / 2], &["cannot decode"]);
     // The marker of the frame header becomes one that does not exist.

@@ -15,22 +15,12 @@ fn folder() -> Folder {
 #[test]
 fn sizes() {
     let folder = folder();
-    for arguments in [
-        &["wide.png", "a.png"][..],
-        &["a.exr", "wide.png"],
-        &["wide.png", "a.exr", "--json"],
-    ] {
+    for arguments in [&["wide.png", "a.png"][..], &["a.exr", "wide.png"], &["wide.png", "a.exr", "--json"]] {
         let parts = [arguments[0], arguments[1], "5x4", "4x4"];
         folder.refused(&[&["compare"], arguments].concat(), &parts);
     }
-    folder.refused(
-        &["compare", "a.png", "a.exr", "--mask", "wide.png"],
-        &["the mask has 5x4", "4x4"],
-    );
-    folder.refused(
-        &["compare", "a.png", "a.exr", "--mask", "black.png"],
-        &["no pixel is left"],
-    );
+    folder.refused(&["compare", "a.png", "a.exr", "--mask", "wide.png"], &["the mask has 5x4", "4x4"]);
+    folder.refused(&["compare", "a.png", "a.exr", "--mask", "black.png"], &["no pixel is left"]);
 }
 
 #[test]

@@ -7,19 +7,13 @@ fn words_that_do_not_exist() {
     let folder = Folder::new();
     folder.refused(&["rendr"], &["rendr", "--help"]);
     folder.refused(&["render", "--sise", "1x1"], &["--sise", "'--size'"]);
-    folder.refused(
-        &["render", "scene.toml", "other.toml"],
-        &["unexpected argument 'other.toml'"],
-    );
+    folder.refused(&["render", "scene.toml", "other.toml"], &["unexpected argument 'other.toml'"]);
     folder.refused(&["compare", "a.exr"], &["<B>"]);
     folder.refused(&["reference", "scene.toml"], &["--output"]);
     folder.refused(&["bench", "--frames", "0"], &["--frames"]);
     folder.refused(&["bench", "--warmup", "-1"], &["-1"]);
     folder.refused(&["reference", "-o", "a.exr", "--spp", "0"], &["--spp"]);
-    folder.refused(
-        &["reference", "-o", "a.exr", "--integrator", "bdpt"],
-        &["bdpt", "shadowed"],
-    );
+    folder.refused(&["reference", "-o", "a.exr", "--integrator", "bdpt"], &["bdpt", "shadowed"]);
     folder.refused(&["compare", "a.exr", "b.exr", "--block", "0"], &["--block"]);
 }
 
@@ -56,14 +50,8 @@ fn names_of_things() {
     let render = |words: &[&str], parts: &[&str]| {
         folder.refused(&[&["render", "scene.toml"], words].concat(), parts);
     };
-    render(
-        &["--camera", "side"],
-        &["scene.toml", "\"side\"", "choose one of: main"],
-    );
-    render(
-        &["--aov", "albedo=a.exr"],
-        &["\"albedo\"", "light_count, direct or indirect"],
-    );
+    render(&["--camera", "side"], &["scene.toml", "\"side\"", "choose one of: main"]);
+    render(&["--aov", "albedo=a.exr"], &["\"albedo\"", "light_count, direct or indirect"]);
     render(&["--aov", "normal"], &["NAME=VALUE"]);
     render(&["--aov", "normal="], &["NAME=VALUE"]);
     folder.refused(
@@ -81,10 +69,7 @@ fn overrides() {
     };
     set("samples", &["NAME=VALUE"]);
     set("=4", &["NAME=VALUE"]);
-    set(
-        "sampels=4",
-        &["--set sampels=4", "unknown key", "did you mean `samples`?"],
-    );
+    set("sampels=4", &["--set sampels=4", "unknown key", "did you mean `samples`?"]);
     set("camera.near=1", &["--set camera.near=1", "unknown key"]);
     set("samples=many", &["--set samples=many", "whole number"]);
     set("samples=0", &["from 1 to 65536"]);

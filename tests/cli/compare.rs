@@ -20,11 +20,7 @@ const ERRORS: [&str; 11] = [
 ];
 
 fn constant(value: f32) -> HdrImage {
-    HdrImage {
-        width: 16,
-        height: 8,
-        pixels: vec![[value; 3]; 128],
-    }
+    HdrImage { width: 16, height: 8, pixels: vec![[value; 3]; 128] }
 }
 
 fn figures(folder: &Folder, arguments: &[&str]) -> Value {
@@ -35,39 +31,18 @@ fn figures(folder: &Folder, arguments: &[&str]) -> Value {
 #[test]
 fn identical_pictures() {
     let folder = Folder::new();
-    folder.done(&[
-        "render",
-        "scene.toml",
-        "-o",
-        "a.exr",
-        "-o",
-        "a.pfm",
-        "-o",
-        "a.png",
-    ]);
+    folder.done(&["render", "scene.toml", "-o", "a.exr", "-o", "a.pfm", "-o", "a.png"]);
     for (a, b) in [("a.exr", "a.exr"), ("a.exr", "a.pfm"), ("a.png", "a.png")] {
         let figures = figures(&folder, &[a, b]);
         for key in ERRORS {
             assert_eq!(figures[key].as_f64(), Some(0.0), "{key} of {a} and {b}");
         }
         assert_eq!(figures["compared"], 64 * 48);
-        assert_eq!(
-            (&figures["width"], &figures["height"]),
-            (&64.into(), &48.into())
-        );
+        assert_eq!((&figures["width"], &figures["height"]), (&64.into(), &48.into()));
         assert_eq!(figures["largest_a"], figures["largest_b"]);
     }
     let table = folder.done(&["compare", "a.exr", "a.exr"]);
-    for row in [
-        "relMSE",
-        "RMSE",
-        "mean bias",
-        "p50",
-        "p99.9",
-        "max",
-        "beyond 1 %",
-        "FLIP",
-    ] {
+    for row in ["relMSE", "RMSE", "mean bias", "p50", "p99.9", "max", "beyond 1 %", "FLIP"] {
         assert!(table.contains(row), "{row}: {table}");
     }
 }
@@ -78,24 +53,13 @@ fn known_differences() {
     constant(1.5).save(folder.path("a.exr")).unwrap();
     constant(1.0).save(folder.path("b.pfm")).unwrap();
     let half = figures(&folder, &["a.exr", "b.pfm"]);
-    for key in [
-        "rmse",
-        "mean_bias",
-        "mean_relative_error",
-        "p50",
-        "p99",
-        "p99.9",
-        "max",
-    ] {
+    for key in ["rmse", "mean_bias", "mean_relative_error", "p50", "p99", "p99.9", "max"] {
         assert_eq!(half[key], 0.5, "{key}");
     }
     assert_eq!(half["beyond_one_percent"], 1.0);
     assert!((half["rel_mse"].as_f64().unwrap() - 0.25 / 1.01).abs() < 1e-12);
     assert!(half["flip"].as_f64().unwrap() > 0.0);
-    assert_eq!(
-        figures(&folder, &["b.pfm", "a.exr"])["mean_bias"],
-        -1.0 / 3.0
-    );
+    assert_eq!(figures(&folder, &["b.pfm", "a.exr"])["mean_bias"], -1.0 / 3.0);
 }
 
 #[test]
@@ -106,26 +70,14 @@ fn masks_and_blocks() {
     a.pixels[0] = [2.0; 3];
     a.pixels[1] = [0.0; 3];
     a.save(folder.path("a.pfm")).unwrap();
-    folder.write(
-        "m.png",
-        png(16, 8, |x, _| if x < 2 { [0, 0, 0, 255] } else { [255; 4] }),
-    );
+    folder.write("m.png", png(16, 8, |x, _| if x < 2 { [0, 0, 0, 255] } else { [255; 4] }));
     let masked = figures(&folder, &["a.pfm", "b.pfm", "--mask", "m.png"]);
-    assert_eq!(
-        (&masked["compared"], &masked["max"]),
-        (&112.into(), &0.0.into())
-    );
+    assert_eq!((&masked["compared"], &masked["max"]), (&112.into(), &0.0.into()));
     let pixels = figures(&folder, &["a.pfm", "b.pfm"]);
-    assert_eq!(
-        (&pixels["compared"], &pixels["max"]),
-        (&128.into(), &1.0.into())
-    );
+    assert_eq!((&pixels["compared"], &pixels["max"]), (&128.into(), &1.0.into()));
     // The two errors cancel in a block.
     let blocks = figures(&folder, &["a.pfm", "b.pfm", "--block", "4"]);
-    assert_eq!(
-        (&blocks["compared"], &blocks["max"]),
-        (&8.into(), &0.0.into())
-    );
+    assert_eq!((&blocks["compared"], &blocks["max"]), (&8.into(), &0.0.into()));
     a.pixels[0] = [f32::NAN; 3];
     a.save(folder.path("nan.pfm")).unwrap();
     assert_eq!(figures(&folder, &["nan.pfm", "b.pfm"])["non_finite"], 1);

@@ -6,23 +6,15 @@ use crate::{Folder, Run};
 fn a_name_that_no_device_has() {
     let folder = Folder::new();
     for wanted in ["nonsense", "4096"] {
-        for command in [
-            &["render", "scene.toml", "-o", "a.png"][..],
-            &["bench", "scene.toml", "--json", "b.json"],
-        ] {
+        for command in
+            [&["render", "scene.toml", "-o", "a.png"][..], &["bench", "scene.toml", "--json", "b.json"]]
+        {
             let arguments = [command, &["--device", wanted]].concat();
-            folder.fails(
-                3,
-                &arguments,
-                &["no usable Vulkan device", wanted, "--device"],
-            );
+            folder.fails(3, &arguments, &["no usable Vulkan device", wanted, "--device"]);
         }
     }
     let arguments = ["render", "scene.toml"];
-    let run = Run::of(
-        folder.command(&arguments).env("AMAS_DEVICE", "nonsense"),
-        &arguments,
-    );
+    let run = Run::of(folder.command(&arguments).env("AMAS_DEVICE", "nonsense"), &arguments);
     run.fails(3, &["nonsense"]);
     assert_eq!(folder.names(), ["scene.toml"]);
 }
@@ -53,10 +45,7 @@ fn no_driver() {
 #[test]
 fn work_without_a_device() {
     let folder = Folder::new();
-    for arguments in [
-        &["reference", "scene.toml", "-o", "a.exr"][..],
-        &["compare", "a.exr", "a.exr"],
-    ] {
+    for arguments in [&["reference", "scene.toml", "-o", "a.exr"][..], &["compare", "a.exr", "a.exr"]] {
         let mut command = folder.command(arguments);
         for variable in ["VK_ICD_FILENAMES", "VK_DRIVER_FILES"] {
             command.env(variable, folder.path("none.json"));

@@ -10,10 +10,7 @@ fn subcommands(folder: &Folder) -> Vec<String> {
         .take_while(|line| !line.is_empty())
         .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
         .filter_map(|line| line.split_whitespace().next());
-    names
-        .filter(|name| *name != "help")
-        .map(str::to_owned)
-        .collect()
+    names.filter(|name| *name != "help").map(str::to_owned).collect()
 }
 
 #[test]
@@ -21,20 +18,14 @@ fn every_subcommand_shows_an_example() {
     let folder = Folder::new();
     let names = subcommands(&folder);
     for needed in ["render", "reference", "compare", "bench", "info"] {
-        assert!(
-            names.iter().any(|name| name == needed),
-            "no {needed} in {names:?}"
-        );
+        assert!(names.iter().any(|name| name == needed), "no {needed} in {names:?}");
     }
     for name in names {
         let help = folder.done(&[&name, "--help"]);
-        let (_, examples) = help
-            .split_once("Example")
-            .unwrap_or_else(|| panic!("{name}: no example: {help}"));
+        let (_, examples) =
+            help.split_once("Example").unwrap_or_else(|| panic!("{name}: no example: {help}"));
         assert!(
-            examples
-                .lines()
-                .any(|line| line.trim().starts_with(&format!("amas {name}"))),
+            examples.lines().any(|line| line.trim().starts_with(&format!("amas {name}"))),
             "{name}: {examples}"
         );
         assert_eq!(folder.done(&["help", &name]), help);
@@ -56,13 +47,7 @@ fn the_readme_names_what_exists() {
     let readme = include_str!("../../README.md");
     let names = subcommands(&folder);
     for rest in readme.split("`amas ").skip(1) {
-        let name: String = rest
-            .chars()
-            .take_while(|c| c.is_ascii_alphanumeric() || *c == '-')
-            .collect();
-        assert!(
-            name.starts_with('-') || names.contains(&name),
-            "amas {name}"
-        );
+        let name: String = rest.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
+        assert!(name.starts_with('-') || names.contains(&name), "amas {name}");
     }
 }

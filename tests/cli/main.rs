@@ -80,19 +80,15 @@ impl Folder {
     /// Names of everything in the folder, hidden files too.
     fn names(&self) -> Vec<String> {
         let entries = self.0.path().read_dir().unwrap();
-        let mut names: Vec<_> = entries
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
     }
 
     fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_amas"));
-        command
-            .args(arguments)
-            .current_dir(self.0.path())
-            .stdin(Stdio::null());
+        command.args(arguments).current_dir(self.0.path()).stdin(Stdio::null());
         command
     }
 
@@ -132,11 +128,7 @@ struct Run {
 
 impl Run {
     fn of(command: &mut Command, arguments: &[&str]) -> Self {
-        let Output {
-            status,
-            stdout,
-            stderr,
-        } = command.output().unwrap();
+        let Output { status, stdout, stderr } = command.output().unwrap();
         Self {
             arguments: arguments.iter().map(|&word| word.into()).collect(),
             status: status.code(),
@@ -153,10 +145,10 @@ impl Run {
         }
         assert!(!self.stderr.contains("panicked"), "{self:#?}");
         // Ours, or that of the parser of the command line.
-        let ours = self.stderr.lines().any(|line| {
-            line.strip_prefix("  remedy: ")
-                .is_some_and(|remedy| remedy.len() > 5)
-        });
+        let ours = self
+            .stderr
+            .lines()
+            .any(|line| line.strip_prefix("  remedy: ").is_some_and(|remedy| remedy.len() > 5));
         let sentence = if ours { "amas: " } else { "error: " };
         let begins = |line: &&str| line.starts_with(sentence) && line.len() > 20;
         assert!(self.stderr.lines().any(|line| begins(&line)), "{self:#?}");
@@ -168,9 +160,7 @@ impl Run {
 fn png(width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Vec<u8> {
     let picture = image::RgbaImage::from_fn(width, height, |x, y| image::Rgba(texel(x, y)));
     let mut bytes = Vec::new();
-    picture
-        .write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png)
-        .unwrap();
+    picture.write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png).unwrap();
     bytes
 }
 
@@ -189,9 +179,7 @@ fn empty_png(width: u32, height: u32) -> Vec<u8> {
 /// CRC-32 as PNG uses it.
 fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
-        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
-            (crc >> 1) ^ if crc & 1 == 1 { 0xedb8_8320 } else { 0 }
-        })
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ if crc & 1 == 1 { 0xedb8_8320 } else { 0 })
     })
 }
 

@@ -34,10 +34,7 @@ fn formats_and_sizes() {
     // Half a step of 8 bits is at most 0.0046 in linear light.
     for (display, linear) in png.pixels.iter().zip(&exr.pixels) {
         for (display, linear) in display.iter().zip(linear) {
-            assert!(
-                (display - linear.min(1.0)).abs() < 0.005,
-                "{display} {linear}"
-            );
+            assert!((display - linear.min(1.0)).abs() < 0.005, "{display} {linear}");
         }
     }
 }
@@ -60,14 +57,7 @@ fn size_by_option_and_by_set() {
 #[test]
 fn output_variables() {
     let folder = Folder::new();
-    let names = [
-        "position",
-        "normal",
-        "material",
-        "light_count",
-        "direct",
-        "indirect",
-    ];
+    let names = ["position", "normal", "material", "light_count", "direct", "indirect"];
     let aovs = names.map(|name| format!("{name}={name}.exr"));
     let aovs = aovs.iter().flat_map(|aov| ["--aov", aov.as_str()]);
     let arguments: Vec<_> = ["render", "scene.toml"].into_iter().chain(aovs).collect();
@@ -75,19 +65,12 @@ fn output_variables() {
     let mut written = names.map(|name| format!("{name}.exr")).to_vec();
     written.push("scene.toml".into());
     written.sort();
-    assert_eq!(
-        folder.names(),
-        written,
-        "no picture unless one is asked for"
-    );
+    assert_eq!(folder.names(), written, "no picture unless one is asked for");
     folder.done(&["render", "scene.toml", "-o", "picture.exr"]);
     let load = |name: &str| picture(&folder.path(&format!("{name}.exr")));
     let [position, normal, material, count, direct, indirect] = names.map(load);
     let [x, y, z] = position.pixels[MIDDLE];
-    assert!(
-        x.abs() < 0.2 && y.abs() < 1e-5 && z.abs() < 0.2,
-        "{x} {y} {z}"
-    );
+    assert!(x.abs() < 0.2 && y.abs() < 1e-5 && z.abs() < 0.2, "{x} {y} {z}");
     assert_eq!(normal.pixels[MIDDLE], [0.0, 1.0, 0.0]);
     assert_eq!(material.pixels[MIDDLE], [0.0; 3]);
     assert_eq!(count.pixels[MIDDLE][0], 1.0);
@@ -110,32 +93,14 @@ fn frames() {
         "--aov",
         "position=p%d.exr",
     ]);
-    let names = [
-        "a_0000.png",
-        "a_0001.png",
-        "a_0002.png",
-        "p0.exr",
-        "p1.exr",
-        "p2.exr",
-        "scene.toml",
-    ];
+    let names = ["a_0000.png", "a_0001.png", "a_0002.png", "p0.exr", "p1.exr", "p2.exr", "scene.toml"];
     assert_eq!(folder.names(), names);
     assert_ne!(folder.read("a_0000.png"), folder.read("a_0002.png"));
     // Frame 30 of 30 a second stands where the path ends.
-    folder.done(&[
-        "render",
-        "scene.toml",
-        "--frames",
-        "30..31",
-        "-o",
-        "f_%04d.exr",
-    ]);
+    folder.done(&["render", "scene.toml", "--frames", "30..31", "-o", "f_%04d.exr"]);
     let camera = "position = [0, 2, 5]\ntarget = [0, 0, 0]\nvertical";
     assert!(SCENE.contains(camera));
-    folder.write(
-        "end.toml",
-        SCENE.replace(camera, "position = [3, 2, 5]\ntarget = [0, 0, 0]\nvertical"),
-    );
+    folder.write("end.toml", SCENE.replace(camera, "position = [3, 2, 5]\ntarget = [0, 0, 0]\nvertical"));
     folder.done(&["render", "end.toml", "-o", "end.exr"]);
     assert_eq!(folder.read("f_0030.exr"), folder.read("end.exr"));
 }
@@ -175,14 +140,7 @@ fn deterministic() {
     let folder = Folder::new();
     let render = |scene: &[&str], threads: Option<&str>, name: &str| {
         let size = ["--size", "64x48", "--set", "samples=2"];
-        let files = [
-            "-o",
-            name,
-            "-o",
-            "last.png",
-            "--aov",
-            "light_count=count.exr",
-        ];
+        let files = ["-o", name, "-o", "last.png", "--aov", "light_count=count.exr"];
         let arguments = [&["render"], scene, &size, &files].concat();
         let mut command = folder.command(&arguments);
         if let Some(threads) = threads {
@@ -216,8 +174,5 @@ fn oracle() {
     folder.done(&["render", "scene.toml", "-o", "b.exr"]);
     let figures = folder.done(&["compare", "b.exr", "a.exr", "--json"]);
     let figures: serde_json::Value = serde_json::from_str(&figures).unwrap();
-    assert!(
-        figures["mean_relative_error"].as_f64().unwrap() < 1e-4,
-        "{figures:#}"
-    );
+    assert!(figures["mean_relative_error"].as_f64().unwrap() < 1e-4, "{figures:#}");
 }

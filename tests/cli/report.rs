@@ -26,10 +26,7 @@ fn device(value: &Value) {
 /// Names in frame order, and times.
 fn passes(value: &Value, n: u64) {
     let passes = value.as_array().unwrap();
-    let names: Vec<_> = passes
-        .iter()
-        .map(|pass| pass["name"].as_str().unwrap())
-        .collect();
+    let names: Vec<_> = passes.iter().map(|pass| pass["name"].as_str().unwrap()).collect();
     assert_eq!(names, PASSES);
     for pass in passes {
         // Devices without timestamps report null.
@@ -59,10 +56,7 @@ fn clusters(value: &Value) {
 fn pairs(value: &Value) {
     let evaluated = number(&value["evaluated"]);
     let useful = number(&value["useful"]);
-    assert!(
-        0.0 < useful && useful <= evaluated && evaluated <= 64.0 * 48.0,
-        "{value}"
-    );
+    assert!(0.0 < useful && useful <= evaluated && evaluated <= 64.0 * 48.0, "{value}");
     let per_pixel = number(&value["per_pixel"]) * 64.0 * 48.0;
     assert!((per_pixel / evaluated - 1.0).abs() < 1e-12, "{value}");
     if !value["ns_per_pair"].is_null() {
@@ -77,13 +71,9 @@ fn every_key() {
     let report = folder.json("r.json");
     assert_eq!(report["schema"], 1);
     device(&report["device"]);
-    let scene =
-        serde_json::json!({ "triangles": 2, "materials": 1, "point_lights": 1, "area_lights": 0 });
+    let scene = serde_json::json!({ "triangles": 2, "materials": 1, "point_lights": 1, "area_lights": 0 });
     assert_eq!(report["scene"], scene);
-    assert_eq!(
-        report["image"],
-        serde_json::json!({ "width": 64, "height": 48 })
-    );
+    assert_eq!(report["image"], serde_json::json!({ "width": 64, "height": 48 }));
     passes(&report["passes"], 1);
     clusters(&report["clusters"]);
     figure(&report["frame"]["wall_ms"], 1);
@@ -91,22 +81,13 @@ fn every_key() {
     pairs(&report["pairs"]);
     let estimate = &report["error_estimate"];
     let error = number(&estimate["light_relative"]);
-    assert!(
-        (0.0..=0.01).contains(&error),
-        "beyond the budget: {estimate}"
-    );
+    assert!((0.0..=0.01).contains(&error), "beyond the budget: {estimate}");
     assert_eq!(number(&estimate["indirect_relative"]), 0.0);
     assert!(report["validation_messages"].is_null());
     let memory = &report["peak_memory"];
-    assert!(
-        (0.1..4096.0).contains(&number(&memory["device_mb"])),
-        "{memory}"
-    );
+    assert!((0.1..4096.0).contains(&number(&memory["device_mb"])), "{memory}");
     if cfg!(target_os = "linux") {
-        assert!(
-            (1.0..4096.0).contains(&number(&memory["host_mb"])),
-            "{memory}"
-        );
+        assert!((1.0..4096.0).contains(&number(&memory["host_mb"])), "{memory}");
     }
 }
 
@@ -123,11 +104,7 @@ fn several_frames_and_no_lights() {
     folder.write("dark.toml", dark);
     folder.done(&["render", "dark.toml", "--report", "r.json"]);
     let report = folder.json("r.json");
-    let names = report["passes"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|pass| &pass["name"]);
+    let names = report["passes"].as_array().unwrap().iter().map(|pass| &pass["name"]);
     assert_eq!(names.collect::<Vec<_>>(), ["prepass", "direct", "present"]);
     assert_eq!(report["pairs"]["evaluated"], 0);
     assert_eq!(report["pairs"]["ns_per_pair"], Value::Null);
@@ -138,15 +115,7 @@ fn several_frames_and_no_lights() {
 #[test]
 fn validation() {
     let folder = Folder::new();
-    let words = [
-        "--validate",
-        "--report",
-        "r.json",
-        "--aov",
-        "normal=n.exr",
-        "-o",
-        "a.png",
-    ];
+    let words = ["--validate", "--report", "r.json", "--aov", "normal=n.exr", "-o", "a.png"];
     folder.done(&[&["render", "scene.toml"], &words[..]].concat());
     assert_eq!(folder.json("r.json")["validation_messages"], 0);
 }

@@ -19,12 +19,7 @@ pub(crate) struct Figure {
 
 impl fmt::Display for Figure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            bsdf,
-            wo,
-            want,
-            place,
-        } = self;
+        let Self { bsdf, wo, want, place } = self;
         write!(f, "{place}: {bsdf:?}, wo {wo}, want {want}")
     }
 }
@@ -45,12 +40,7 @@ pub(crate) fn figures(model: &str, table: &Table) -> Vec<Figure> {
 fn figure(row: &Row, bsdf: Bsdf, want: DVec3) -> Figure {
     // Only the table of metals, which may be anisotropic, has an azimuth.
     let phi = row.find("phi_o_deg").unwrap_or(0.0);
-    Figure {
-        bsdf,
-        wo: at_cosine(row.get("mu"), phi),
-        want,
-        place: row.place(),
-    }
+    Figure { bsdf, wo: at_cosine(row.get("mu"), phi), want, place: row.place() }
 }
 
 fn grey(row: &Row, bsdf: Bsdf, column: &str) -> Figure {
@@ -58,10 +48,7 @@ fn grey(row: &Row, bsdf: Bsdf, column: &str) -> Figure {
 }
 
 fn matte(row: &Row) -> Vec<Figure> {
-    let bsdf = Bsdf::Matte(Matte {
-        color: DVec3::ONE,
-        sigma: row.get("sigma_deg"),
-    });
+    let bsdf = Bsdf::Matte(Matte { color: DVec3::ONE, sigma: row.get("sigma_deg") });
     vec![grey(row, bsdf, "orennayar_kd1")]
 }
 
@@ -73,10 +60,7 @@ fn plastic(row: &Row) -> Vec<Figure> {
         alpha: row.get("alpha"),
     });
     let furnace = white_metal(Ggx::isotropic(row.get("alpha")));
-    vec![
-        grey(row, specular, "spec_eta1p5"),
-        grey(row, furnace, "spec_F1"),
-    ]
+    vec![grey(row, specular, "spec_eta1p5"), grey(row, furnace, "spec_F1")]
 }
 
 fn metal(row: &Row) -> Vec<Figure> {
@@ -99,19 +83,9 @@ fn substrate(row: &Row) -> Vec<Figure> {
 
 fn principled(row: &Row) -> Vec<Figure> {
     let plain = white_principled(row.get("roughness"), row.get("cc_gloss_eq_roughness"));
-    let coated = Principled {
-        clearcoat: 1.0,
-        sheen: 1.0,
-        ..plain
-    };
-    let flat = Principled {
-        subsurface: 1.0,
-        ..plain
-    };
-    let metal = Principled {
-        metallic: 1.0,
-        ..plain
-    };
+    let coated = Principled { clearcoat: 1.0, sheen: 1.0, ..plain };
+    let flat = Principled { subsurface: 1.0, ..plain };
+    let metal = Principled { metallic: 1.0, ..plain };
     let base = row.get("total_white_dielectric_cc0");
     let flat_want = base + row.get("fakess_c1") - row.get("diffuse_plus_retro");
     let total = |bsdf, column| grey(row, Bsdf::Principled(bsdf), column);
@@ -125,11 +99,7 @@ fn principled(row: &Row) -> Vec<Figure> {
 
 /// F = 1 to 4e-12 by an absorption beyond any material's; more would leave float32's range of squares.
 pub(crate) fn white_metal(ggx: Ggx) -> Bsdf {
-    Bsdf::Metal(Metal {
-        eta: DVec3::ONE,
-        k: DVec3::splat(1e6),
-        ggx,
-    })
+    Bsdf::Metal(Metal { eta: DVec3::ONE, k: DVec3::splat(1e6), ggx })
 }
 
 pub(crate) fn white_principled(roughness: f64, clearcoat_gloss: f64) -> Principled {
@@ -168,19 +138,13 @@ pub(crate) fn quadrature(
         let pdf = bsdf.pdf(wo, wi) + grazing_pdf(wo, wi);
         (wi.z > 0.0).then(|| (wi, wi.z / (pdf * f64::from(n))))
     };
-    (0..n)
-        .flat_map(|i| [bsdf.sample(wo, r2(i)), grazing(wo, r2(i))])
-        .filter_map(point)
-        .collect()
+    (0..n).flat_map(|i| [bsdf.sample(wo, r2(i)), grazing(wo, r2(i))]).filter_map(point).collect()
 }
 
 /// Directional albedo of the oracle.
 pub(crate) fn albedo(bsdf: &Bsdf, wo: DVec3, n: u32) -> DVec3 {
     let points = quadrature(bsdf, wo, n, |wi| wi);
-    points
-        .into_iter()
-        .map(|(wi, weight)| bsdf.eval(wo, wi) * weight)
-        .sum()
+    points.into_iter().map(|(wi, weight)| bsdf.eval(wo, wi) * weight).sum()
 }
 
 /// cosθ = x², and an azimuth that crowds opposite to `wo`.

@@ -14,12 +14,9 @@ impl CheckedGpu {
     /// Opens the device that `AMAS_DEVICE` names, else the best one. A machine without one fails the test.
     pub(crate) fn open() -> Self {
         static ANNOUNCED: Once = Once::new();
-        let options = Options {
-            device: std::env::var("AMAS_DEVICE").ok(),
-            validate: true,
-        };
-        let gpu = Gpu::open(&options)
-            .unwrap_or_else(|error| panic!("this test needs a Vulkan device: {error}"));
+        let options = Options { device: std::env::var("AMAS_DEVICE").ok(), validate: true };
+        let gpu =
+            Gpu::open(&options).unwrap_or_else(|error| panic!("this test needs a Vulkan device: {error}"));
         let info = gpu.info();
         ANNOUNCED.call_once(|| eprintln!("{}, {}, Vulkan {}", info.name, info.driver, info.api));
         Self(gpu)
@@ -31,12 +28,7 @@ impl CheckedGpu {
     fn require_silence(&self) {
         let messages = self.0.validation_messages();
         let messages = messages.unwrap_or_else(|| panic!("validation is off"));
-        assert!(
-            messages.is_empty(),
-            "{} validation messages:\n{}",
-            messages.len(),
-            messages.join("\n")
-        );
+        assert!(messages.is_empty(), "{} validation messages:\n{}", messages.len(), messages.join("\n"));
     }
 }
 

@@ -2,9 +2,7 @@
 
 use amas::reference::{Options, render};
 use amas::scene::material::{PARAMETER_COUNT, Value};
-use amas::scene::{
-    Camera, Material, Mesh, Model, Parameter, PointLight, Projection, Scene, Vertex,
-};
+use amas::scene::{Camera, Material, Mesh, Model, Parameter, PointLight, Projection, Scene, Vertex};
 use glam::{DVec3, vec3};
 
 pub(crate) fn camera(projection: Projection) -> Camera {
@@ -42,16 +40,9 @@ pub(crate) fn scene() -> Scene {
         uv: [0.5 * x + 0.5, 0.5 * y + 0.5],
     };
     let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let mesh = Mesh {
-        vertices: corners.map(vertex).into(),
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        material: 0,
-    };
-    let light = PointLight {
-        position: vec3(0.3, 0.2, 1.0),
-        intensity: vec3(1.0, 2.0, 3.0),
-        range: None,
-    };
+    let mesh =
+        Mesh { vertices: corners.map(vertex).into(), triangles: vec![[0, 1, 2], [0, 2, 3]], material: 0 };
+    let light = PointLight { position: vec3(0.3, 0.2, 1.0), intensity: vec3(1.0, 2.0, 3.0), range: None };
     Scene {
         cameras: vec![perspective()],
         materials: vec![material],
@@ -62,15 +53,9 @@ pub(crate) fn scene() -> Scene {
 }
 
 pub(crate) fn options(size: [u32; 2]) -> Options {
-    Options {
-        size,
-        ..Options::of_scene(&scene())
-    }
+    Options { size, ..Options::of_scene(&scene()) }
 }
 
 pub(crate) fn center(scene: &Scene) -> [f32; 3] {
-    render(scene, &scene.cameras[0], &options([1, 1]))
-        .unwrap()
-        .image
-        .pixels[0]
+    render(scene, &scene.cameras[0], &options([1, 1])).unwrap().image.pixels[0]
 }

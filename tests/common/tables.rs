@@ -15,11 +15,7 @@ fn named_folder() -> Option<PathBuf> {
 fn own_folder() -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let complete = root.join("../shared/oracle");
-    if complete.is_dir() {
-        complete
-    } else {
-        root.join("tests/vectors")
-    }
+    if complete.is_dir() { complete } else { root.join("tests/vectors") }
 }
 
 /// Every row of a model's values. A file that is missing or empty fails the test.
@@ -67,11 +63,7 @@ impl Table {
             rows.iter().all(|row| row.len() == header.len()),
             "{path:?}: a row is not as long as the header"
         );
-        Self {
-            name: path.display().to_string(),
-            header,
-            rows,
-        }
+        Self { name: path.display().to_string(), header, rows }
     }
 
     pub(crate) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
@@ -86,8 +78,7 @@ fn numbers(line: &str) -> Vec<f64> {
 
 impl Row<'_> {
     pub(crate) fn get(&self, column: &str) -> f64 {
-        self.find(column)
-            .unwrap_or_else(|| panic!("{}: no column {column}", self.table.name))
+        self.find(column).unwrap_or_else(|| panic!("{}: no column {column}", self.table.name))
     }
 
     pub(crate) fn find(&self, column: &str) -> Option<f64> {
@@ -118,10 +109,7 @@ impl Row<'_> {
     }
 
     pub(crate) fn ggx(&self) -> Ggx {
-        Ggx {
-            alpha_x: self.get("alphax"),
-            alpha_y: self.get("alphay"),
-        }
+        Ggx { alpha_x: self.get("alphax"), alpha_y: self.get("alphay") }
     }
 }
 
@@ -138,10 +126,7 @@ pub(crate) const MODELS: [TableModel; 5] = [
 ];
 
 fn matte(row: &Row) -> Bsdf {
-    Bsdf::Matte(Matte {
-        color: row.rgb("kd"),
-        sigma: row.get("sigma_deg"),
-    })
+    Bsdf::Matte(Matte { color: row.rgb("kd"), sigma: row.get("sigma_deg") })
 }
 
 fn plastic(row: &Row) -> Bsdf {
@@ -154,36 +139,22 @@ fn plastic(row: &Row) -> Bsdf {
 }
 
 fn metal(row: &Row) -> Bsdf {
-    Bsdf::Metal(Metal {
-        eta: row.rgb("eta"),
-        k: row.rgb("k"),
-        ggx: row.ggx(),
-    })
+    Bsdf::Metal(Metal { eta: row.rgb("eta"), k: row.rgb("k"), ggx: row.ggx() })
 }
 
 fn substrate(row: &Row) -> Bsdf {
-    Bsdf::Substrate(Substrate {
-        diffuse: row.rgb("kd"),
-        specular: row.rgb("ks"),
-        ggx: row.ggx(),
-    })
+    Bsdf::Substrate(Substrate { diffuse: row.rgb("kd"), specular: row.rgb("ks"), ggx: row.ggx() })
 }
 
 fn principled(row: &Row) -> Bsdf {
-    let (roughness, aspect) = (
-        row.get("roughness"),
-        (1.0 - 0.9 * row.get("anisotropic")).sqrt(),
-    );
+    let (roughness, aspect) = (row.get("roughness"), (1.0 - 0.9 * row.get("anisotropic")).sqrt());
     let alpha = roughness * roughness;
     Bsdf::Principled(Principled {
         base_color: row.rgb("color"),
         metallic: row.get("metallic"),
         eta: row.get("eta"),
         roughness,
-        ggx: Ggx {
-            alpha_x: (alpha / aspect).max(1e-3),
-            alpha_y: (alpha * aspect).max(1e-3),
-        },
+        ggx: Ggx { alpha_x: (alpha / aspect).max(1e-3), alpha_y: (alpha * aspect).max(1e-3) },
         specular_tint: row.get("spectint"),
         sheen: row.get("sheen"),
         sheen_tint: row.get("sheentint"),

@@ -23,26 +23,15 @@ fn descriptors_are_those_of_the_tables() {
             let found = bindings.iter().find(|binding| binding.binding == slot);
             let want = found.unwrap_or_else(|| panic!("{context}: not in shared::{table}"));
             let (kind, count) = described(&module, variable);
-            assert_eq!(
-                (kind, count),
-                (Some(want.kind), want.count),
-                "{context}: kind and count"
-            );
+            assert_eq!((kind, count), (Some(want.kind), want.count), "{context}: kind and count");
             used.insert((table, slot));
         }
     }
     let tables = ["frame", "scene", "material", "probe"].into_iter();
     let all: BTreeSet<_> = tables
-        .flat_map(|name| {
-            bindings_of(name)
-                .iter()
-                .map(move |binding| (name, binding.binding))
-        })
+        .flat_map(|name| bindings_of(name).iter().map(move |binding| (name, binding.binding)))
         .collect();
-    assert_eq!(
-        used, all,
-        "bindings that shaders use against bindings declared"
-    );
+    assert_eq!(used, all, "bindings that shaders use against bindings declared");
 }
 
 fn bindings_of(table: &str) -> &'static [Binding] {
@@ -74,16 +63,9 @@ fn described(module: &Module, variable: &Variable) -> (Option<BindingKind>, u32)
         (class::UNIFORM, Type::Struct { .. }) if block => Some(BindingKind::Uniform),
         (class::STORAGE_BUFFER, Type::Struct { .. }) if block => Some(BindingKind::Storage),
         (class::UNIFORM_CONSTANT, Type::SampledImage) => Some(BindingKind::Combined),
-        (
-            class::UNIFORM_CONSTANT,
-            Type::Image {
-                dim: SUBPASS_DATA, ..
-            },
-        ) => Some(BindingKind::Input),
+        (class::UNIFORM_CONSTANT, Type::Image { dim: SUBPASS_DATA, .. }) => Some(BindingKind::Input),
         (class::UNIFORM_CONSTANT, Type::Image { sampled: 1, .. }) => Some(BindingKind::Sampled),
-        (class::UNIFORM_CONSTANT, Type::Image { sampled: 2, .. }) => {
-            Some(BindingKind::StorageImage)
-        }
+        (class::UNIFORM_CONSTANT, Type::Image { sampled: 2, .. }) => Some(BindingKind::StorageImage),
         _ => None,
     };
     (kind, count)
@@ -101,22 +83,15 @@ fn specialization_constants_have_their_ids() {
         }
     }
     let all: BTreeSet<_> = want.into_keys().collect();
-    assert_eq!(
-        used, all,
-        "constants that shaders use against constants declared"
-    );
+    assert_eq!(used, all, "constants that shaders use against constants declared");
 }
 
 /// `NAME` has the id `SPEC_NAME`; a parameter's slot has `SPEC_SLOT` + its row.
 fn specialization_ids() -> BTreeMap<String, u32> {
     let single = constants().filter_map(|(name, id)| Some((name.strip_prefix("SPEC_")?, id)));
     let single = single.filter(|&(name, _)| name != "SLOT");
-    let slots =
-        PARAMETERS.map(|parameter| (slot_name(parameter), shared::SPEC_SLOT + parameter as u32));
-    single
-        .map(|(name, id)| (name.to_owned(), id))
-        .chain(slots)
-        .collect()
+    let slots = PARAMETERS.map(|parameter| (slot_name(parameter), shared::SPEC_SLOT + parameter as u32));
+    single.map(|(name, id)| (name.to_owned(), id)).chain(slots).collect()
 }
 
 const PARAMETERS: [Parameter; amas::scene::material::PARAMETER_COUNT] = [

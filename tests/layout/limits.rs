@@ -12,10 +12,7 @@ use crate::{constant, modules};
 /// Float64, Int64, Int16, Float16, subgroups, image queries, formatless storage images, non-uniform indexing.
 const CAPABILITIES: [(u32, &str); 2] = [
     (1, "Shader: what a graphics device is"),
-    (
-        40,
-        "InputAttachment: the present subpass reads the colour of its pixel; part of every render pass",
-    ),
+    (40, "InputAttachment: the present subpass reads the colour of its pixel; part of every render pass"),
 ];
 
 /// `maxBoundDescriptorSets` of every device.
@@ -38,11 +35,7 @@ fn capabilities_are_those_of_every_device() {
     for (shader, module) in modules() {
         for &capability in &module.capabilities {
             let allowed = CAPABILITIES.iter().any(|row| row.0 == capability);
-            assert!(
-                allowed,
-                "{}: capability {capability} is none of {CAPABILITIES:?}",
-                shader.name
-            );
+            assert!(allowed, "{}: capability {capability} is none of {CAPABILITIES:?}", shader.name);
         }
         let none: &[String] = &[];
         assert_eq!(module.extensions, none, "{}: extensions", shader.name);
@@ -52,29 +45,19 @@ fn capabilities_are_those_of_every_device() {
 #[test]
 fn workgroups_have_the_size_that_dispatches_assume() {
     let sized = |name| constant(name).unwrap();
-    let (linear, scan, tile) = (
-        sized("LINEAR_GROUP"),
-        sized("SCAN_GROUP"),
-        sized("TILE_SIZE"),
-    );
+    let (linear, scan, tile) = (sized("LINEAR_GROUP"), sized("SCAN_GROUP"), sized("TILE_SIZE"));
     assert_eq!(sized("TILE_PIXELS"), tile * tile);
     for (shader, module) in modules() {
         let want = match shader.name {
             _ if shader.stage != Stage::Compute => None,
-            "cluster/slices.comp" | "cluster/bounds.comp" | "cluster/pairs.comp" => {
-                Some([tile, tile, 1])
-            }
+            "cluster/slices.comp" | "cluster/bounds.comp" | "cluster/pairs.comp" => Some([tile, tile, 1]),
             "cluster/scan_tiles.comp" | "cluster/scan_lists.comp" => Some([scan, 1, 1]),
             // One invocation per element.
             _ => Some([linear, 1, 1]),
         };
         assert_eq!(module.local_size, want, "{}: local size", shader.name);
         let invocations: u32 = want.into_iter().flatten().product();
-        assert!(
-            invocations <= WORKGROUP_INVOCATIONS,
-            "{}: {invocations} invocations",
-            shader.name
-        );
+        assert!(invocations <= WORKGROUP_INVOCATIONS, "{}: {invocations} invocations", shader.name);
     }
 }
 
@@ -83,26 +66,12 @@ fn memory_and_descriptors_fit_every_device() {
     for (shader, module) in modules() {
         let sum = |class| bytes(&module, class);
         let (push, shared) = (sum(class::PUSH_CONSTANT), sum(class::WORKGROUP));
-        assert!(
-            push <= PUSH_CONSTANT_BYTES,
-            "{}: {push} bytes of push constants",
-            shader.name
-        );
-        assert!(
-            shared <= SHARED_MEMORY_BYTES,
-            "{}: {shared} bytes of shared memory",
-            shader.name
-        );
-        let sets = module
-            .variables
-            .iter()
-            .filter_map(|v| module.decoration(v.id, decoration::DESCRIPTOR_SET));
+        assert!(push <= PUSH_CONSTANT_BYTES, "{}: {push} bytes of push constants", shader.name);
+        assert!(shared <= SHARED_MEMORY_BYTES, "{}: {shared} bytes of shared memory", shader.name);
+        let sets =
+            module.variables.iter().filter_map(|v| module.decoration(v.id, decoration::DESCRIPTOR_SET));
         let sets = sets.max().map_or(0, |highest| highest + 1);
-        assert!(
-            sets <= DESCRIPTOR_SETS,
-            "{}: {sets} descriptor sets",
-            shader.name
-        );
+        assert!(sets <= DESCRIPTOR_SETS, "{}: {sets} descriptor sets", shader.name);
     }
 }
 
@@ -120,20 +89,13 @@ fn pipeline_layouts_fit_the_device_that_amas_asks_for() {
     assert!(count(&[BindingKind::StorageImage]) <= STORAGE_IMAGES);
     for table in sets.into_iter().chain([probe::BINDINGS]) {
         let numbers: BTreeSet<_> = table.iter().map(|binding| binding.binding).collect();
-        assert_eq!(
-            numbers.len(),
-            table.len(),
-            "binding numbers are unique: {table:?}"
-        );
+        assert_eq!(numbers.len(), table.len(), "binding numbers are unique: {table:?}");
     }
 }
 
 /// Bytes of all variables of a storage class.
 fn bytes(module: &Module, class: u32) -> u32 {
-    let variables = module
-        .variables
-        .iter()
-        .filter(|variable| variable.class == class);
+    let variables = module.variables.iter().filter(|variable| variable.class == class);
     variables
         .map(|variable| match module.typed(variable.pointer) {
             Type::Pointer { of } => module.extent(*of, 0),

@@ -17,9 +17,7 @@ fn modules() -> impl Iterator<Item = (Shader, Module)> {
 
 /// The value of a constant that `shared.rs` hands to GLSL.
 fn constant(name: &str) -> Option<u32> {
-    constants()
-        .find(|&(found, _)| found == name)
-        .map(|found| found.1)
+    constants().find(|&(found, _)| found == name).map(|found| found.1)
 }
 
 fn constants() -> impl Iterator<Item = (&'static str, u32)> {

@@ -60,10 +60,7 @@ pub(crate) mod decoration {
 
 impl Module {
     pub(crate) fn parse(words: &[u32]) -> Self {
-        assert_eq!(
-            words[0], 0x0723_0203,
-            "not SPIR-V of this machine's byte order"
-        );
+        assert_eq!(words[0], 0x0723_0203, "not SPIR-V of this machine's byte order");
         let mut module = Self::default();
         let mut rest = &words[5..];
         while let Some(&head) = rest.first() {
@@ -88,19 +85,16 @@ impl Module {
                 self.types.insert(*id, declared_type(opcode, operands));
             }
             (43, [_, id, value, ..]) => drop(self.constants.insert(*id, *value)),
-            (59, [pointer, id, class, ..]) => self.variables.push(Variable {
-                id: *id,
-                pointer: *pointer,
-                class: *class,
-            }),
+            (59, [pointer, id, class, ..]) => {
+                self.variables.push(Variable { id: *id, pointer: *pointer, class: *class })
+            }
             (71, [id, decoration, values @ ..]) => {
                 let value = values.first().copied().unwrap_or(0);
                 self.decorations.insert((*id, *decoration), value);
             }
             (72, [id, member, decoration, values @ ..]) => {
                 let value = values.first().copied().unwrap_or(0);
-                self.member_decorations
-                    .insert((*id, *member, *decoration), value);
+                self.member_decorations.insert((*id, *member, *decoration), value);
             }
             _ => {}
         }
@@ -111,9 +105,7 @@ impl Module {
     }
 
     pub(crate) fn member_name(&self, id: u32, member: u32) -> &str {
-        self.member_names
-            .get(&(id, member))
-            .map_or("", String::as_str)
+        self.member_names.get(&(id, member)).map_or("", String::as_str)
     }
 
     pub(crate) fn decoration(&self, id: u32, decoration: u32) -> Option<u32> {
@@ -121,9 +113,7 @@ impl Module {
     }
 
     pub(crate) fn member(&self, id: u32, member: u32, decoration: u32) -> Option<u32> {
-        self.member_decorations
-            .get(&(id, member, decoration))
-            .copied()
+        self.member_decorations.get(&(id, member, decoration)).copied()
     }
 
     pub(crate) fn typed(&self, id: u32) -> &Type {
@@ -166,11 +156,7 @@ impl Module {
             Type::Scalar { bytes } => *bytes,
             Type::Vector { of, count } => count * self.extent(*of, 0),
             Type::Matrix { column, count } => {
-                let stride = if matrix_stride > 0 {
-                    matrix_stride
-                } else {
-                    self.extent(*column, 0)
-                };
+                let stride = if matrix_stride > 0 { matrix_stride } else { self.extent(*column, 0) };
                 count * stride
             }
             Type::Array { of, length } => {
@@ -199,14 +185,12 @@ impl Module {
 
     /// Strides of the arrays whose elements are of this type.
     pub(crate) fn strides_of(&self, element: u32) -> impl Iterator<Item = u32> {
-        self.types
-            .iter()
-            .filter_map(move |(&id, typed)| match typed {
-                Type::Array { of, .. } | Type::RuntimeArray { of } if *of == element => {
-                    self.decoration(id, decoration::ARRAY_STRIDE)
-                }
-                _ => None,
-            })
+        self.types.iter().filter_map(move |(&id, typed)| match typed {
+            Type::Array { of, .. } | Type::RuntimeArray { of } if *of == element => {
+                self.decoration(id, decoration::ARRAY_STRIDE)
+            }
+            _ => None,
+        })
     }
 }
 
@@ -221,9 +205,7 @@ fn declared_type(opcode: u32, operands: &[u32]) -> Type {
         (27, _) => Type::SampledImage,
         (28, &[of, length]) => Type::Array { of, length },
         (29, &[of]) => Type::RuntimeArray { of },
-        (30, members) => Type::Struct {
-            members: members.to_vec(),
-        },
+        (30, members) => Type::Struct { members: members.to_vec() },
         (32, &[_, of]) => Type::Pointer { of },
         _ => Type::Other,
     }

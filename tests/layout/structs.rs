@@ -21,25 +21,16 @@ fn structs_lie_in_shaders_as_they_do_in_rust() {
     }
     // Each of them is read or written by a shader: one that is not found is dead, or misnamed.
     let all: BTreeSet<_> = LAYOUTS.iter().map(|layout| layout.name).collect();
-    assert_eq!(
-        found, all,
-        "structs found in shaders against structs declared"
-    );
+    assert_eq!(found, all, "structs found in shaders against structs declared");
 }
 
 fn compare(shader: &str, module: &Module, layout: &StructLayout, id: u32, members: &[u32]) {
     let context = format!("{shader}: struct {}", layout.name);
-    assert_eq!(
-        members.len(),
-        layout.fields.len(),
-        "{context}: number of fields"
-    );
+    assert_eq!(members.len(), layout.fields.len(), "{context}: number of fields");
     // No struct has padding, so each field ends where the next begins: its type has the right size too.
     let ends = layout.fields.iter().skip(1).map(|field| field.1);
     let ends = ends.chain([layout.size]);
-    for ((member, &typed), (&(name, offset), end)) in
-        (0..).zip(members).zip(layout.fields.iter().zip(ends))
-    {
+    for ((member, &typed), (&(name, offset), end)) in (0..).zip(members).zip(layout.fields.iter().zip(ends)) {
         let context = format!("{context}, field {name}");
         let begin = module.member(id, member, decoration::OFFSET).unwrap() as usize;
         let extent = module.member_extent(id, member, typed) as usize;

@@ -3,10 +3,8 @@
 use crate::support::{FIVE_MATERIALS, Rig, assert_close, oracle, scene, unranged_lights};
 
 fn check(camera: &str) {
-    let text = FIVE_MATERIALS.replace(
-        "position = [0, 1.5, 5]\ntarget = [0, 0.5, 0]\nvertical_fov = 40",
-        camera,
-    );
+    let text =
+        FIVE_MATERIALS.replace("position = [0, 1.5, 5]\ntarget = [0, 0.5, 0]\nvertical_fov = 40", camera);
     assert_ne!(text, FIVE_MATERIALS);
     let mut rig = Rig::new(scene(&format!("{text}{}", unranged_lights(4))));
     assert_close(&rig.render(), &oracle(&rig.scene), 0.99, 1e-4);

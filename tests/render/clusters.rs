@@ -1,8 +1,7 @@
 //! Clustered pictures against every light on every pixel.
 
 use crate::support::{
-    FIVE_MATERIALS, Rig, assert_close, oracle, ranged_lights, relative_errors, scene,
-    unranged_lights,
+    FIVE_MATERIALS, Rig, assert_close, oracle, ranged_lights, relative_errors, scene, unranged_lights,
 };
 
 fn small(text: &str) -> String {
@@ -14,11 +13,7 @@ fn a_hundred_thousand_lights_equal_brute_force() {
     let text = small(&format!("{FIVE_MATERIALS}{}", ranged_lights(100_000, 0.12)));
     let mut rig = Rig::new(scene(&text));
     let clustered = rig.render();
-    assert_eq!(
-        rig.frame.counters().dropped,
-        0,
-        "the lists hold every light"
-    );
+    assert_eq!(rig.frame.counters().dropped, 0, "the lists hold every light");
     let brute = Rig::with(scene(&text), |settings| settings.brute_force = true).render();
     let errors = relative_errors(&clustered, &brute);
     let worst = errors[errors.len() - 1];
@@ -28,11 +23,7 @@ fn a_hundred_thousand_lights_equal_brute_force() {
 
 #[test]
 fn unranged_lights_are_the_same_in_both() {
-    let text = small(&format!(
-        "{FIVE_MATERIALS}{}{}",
-        ranged_lights(300, 1.0),
-        unranged_lights(30)
-    ));
+    let text = small(&format!("{FIVE_MATERIALS}{}{}", ranged_lights(300, 1.0), unranged_lights(30)));
     let clustered = Rig::new(scene(&text)).render();
     let brute = Rig::with(scene(&text), |settings| settings.brute_force = true).render();
     let errors = relative_errors(&clustered, &brute);
@@ -71,21 +62,15 @@ fn room_for_lists_grows_within_the_frame() {
 
 #[test]
 fn pairs_are_counted() {
-    let mut rig = Rig::new(scene(&format!(
-        "{FIVE_MATERIALS}{}{}",
-        ranged_lights(500, 1.0),
-        unranged_lights(7)
-    )));
+    let mut rig =
+        Rig::new(scene(&format!("{FIVE_MATERIALS}{}{}", ranged_lights(500, 1.0), unranged_lights(7))));
     rig.render();
     let pairs = rig.frame.pairs().unwrap();
     let counts = rig.aov(amas::passes::aov::Quantity::LightCount);
     let evaluated: f64 = counts.iter().map(|v| f64::from(v[0])).sum();
     assert_eq!(pairs.evaluated as f64, evaluated);
     let covered = counts.iter().filter(|v| v[3] > 0.0).count() as u64;
-    assert!(
-        pairs.useful >= 7 * covered && pairs.useful <= pairs.evaluated,
-        "{pairs:?}"
-    );
+    assert!(pairs.useful >= 7 * covered && pairs.useful <= pairs.evaluated, "{pairs:?}");
 }
 
 /// lavapipe ends a shader's loops after 65,535 iterations in all, silently.
@@ -100,9 +85,6 @@ fn more_lights_than_a_loop_may_have_iterations() {
     assert_eq!(counters.longest, 1 << 20);
     assert_eq!(counters.dropped, counters.clusters * ((1 << 20) - 1024));
 
-    let mut rig = Rig::new(scene(&tiny(&format!(
-        "{FIVE_MATERIALS}{}",
-        unranged_lights(70_000)
-    ))));
+    let mut rig = Rig::new(scene(&tiny(&format!("{FIVE_MATERIALS}{}", unranged_lights(70_000)))));
     assert_close(&rig.render(), &oracle(&rig.scene), 0.99, 1e-4);
 }

@@ -29,12 +29,8 @@ const PERSPECTIVE: &str = "position = [0, 3, 12]\ntarget = [0, 1, 0]\nvertical_f
 /// Indices of the cluster's list, without padding.
 fn list(texels: &[[u32; 4]], cluster: &Cluster) -> Vec<u32> {
     let layer = 1_usize << (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2);
-    assert!(
-        cluster.list as usize + (cluster.reaching as usize).div_ceil(4) <= texels.len().max(layer)
-    );
-    (0..cluster.reaching)
-        .map(|i| texels[(cluster.list + i / 4) as usize][(i % 4) as usize])
-        .collect()
+    assert!(cluster.list as usize + (cluster.reaching as usize).div_ceil(4) <= texels.len().max(layer));
+    (0..cluster.reaching).map(|i| texels[(cluster.list + i / 4) as usize][(i % 4) as usize]).collect()
 }
 
 /// Asserts that no reaching light is missing from any pixel's list; returns entries over reaching lights.
@@ -43,28 +39,16 @@ fn check(text: &str) -> f64 {
     rig.render();
     let positions = rig.aov(Quantity::Position);
     let (targets, clusters) = rig.frame.cluster_targets();
-    let ids: Vec<u32> = targets
-        .cluster_ids
-        .fetch(Use::FragmentRead, Use::FragmentRead)
-        .unwrap();
-    let texels: Vec<[u32; 4]> = clusters
-        .lists
-        .fetch(Use::FragmentRead, Use::FragmentRead)
-        .unwrap();
+    let ids: Vec<u32> = targets.cluster_ids.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
+    let texels: Vec<[u32; 4]> = clusters.lists.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
     let clusters = clusters.clusters.fetch(Use::ComputeWrite).unwrap();
     let lights = &rig.gpu_scene.lights.lights[..rig.gpu_scene.lights.ranged];
     let lists: Vec<Vec<u32>> = {
         let occupied = rig.frame.counters().clusters as usize;
-        clusters[..occupied]
-            .iter()
-            .map(|cluster| list(&texels, cluster))
-            .collect()
+        clusters[..occupied].iter().map(|cluster| list(&texels, cluster)).collect()
     };
     for list in &lists {
-        assert!(
-            list.windows(2).all(|pair| pair[0] < pair[1]),
-            "ascending, so without duplicates"
-        );
+        assert!(list.windows(2).all(|pair| pair[0] < pair[1]), "ascending, so without duplicates");
     }
     let (mut entries, mut reaching) = (0, 0);
     for (&id, position) in ids.iter().zip(&positions) {
@@ -96,36 +80,16 @@ fn report(name: &str, text: &str) {
 fn perspective_infinite_and_finite_far() {
     report("infinite", &world(PERSPECTIVE, NEAR_LIGHTS, "[160, 96]"));
     // Lights and surfaces lie across the far plane.
-    report(
-        "far 14",
-        &world(
-            &format!("{PERSPECTIVE}far = 14\n"),
-            NEAR_LIGHTS,
-            "[160, 96]",
-        ),
-    );
-    report(
-        "narrow",
-        &world(&PERSPECTIVE.replace("60", "3"), NEAR_LIGHTS, "[160, 96]"),
-    );
-    report(
-        "wide",
-        &world(&PERSPECTIVE.replace("60", "150"), NEAR_LIGHTS, "[160, 96]"),
-    );
+    report("far 14", &world(&format!("{PERSPECTIVE}far = 14\n"), NEAR_LIGHTS, "[160, 96]"));
+    report("narrow", &world(&PERSPECTIVE.replace("60", "3"), NEAR_LIGHTS, "[160, 96]"));
+    report("wide", &world(&PERSPECTIVE.replace("60", "150"), NEAR_LIGHTS, "[160, 96]"));
 }
 
 #[test]
 fn orthographic_near_and_far() {
     let camera = "position = [0, 8, 12]\ntarget = [0, 0, 0]\northographic_height = 12\n";
     report("orthographic", &world(camera, NEAR_LIGHTS, "[160, 96]"));
-    report(
-        "far 15",
-        &world(
-            &format!("{camera}near = 0.001\nfar = 15\n"),
-            NEAR_LIGHTS,
-            "[160, 96]",
-        ),
-    );
+    report("far 15", &world(&format!("{camera}near = 0.001\nfar = 15\n"), NEAR_LIGHTS, "[160, 96]"));
 }
 
 #[test]
@@ -133,11 +97,7 @@ fn sizes_that_are_no_multiple_of_a_tile() {
     for size in ["[1, 1]", "[7, 9]", "[161, 97]", "[8, 1]"] {
         report(
             size,
-            &world(
-                "position = [0, 3, 9]\ntarget = [0, 0.5, 0]\nvertical_fov = 20\n",
-                NEAR_LIGHTS,
-                size,
-            ),
+            &world("position = [0, 3, 9]\ntarget = [0, 0.5, 0]\nvertical_fov = 20\n", NEAR_LIGHTS, size),
         );
     }
 }
@@ -176,9 +136,8 @@ fn far_from_the_origin_and_tiny_ranges() {
     )
     .replace("size = 60\n", "size = 60\ntranslate = [1000, 1000, 1000]\n");
     report("offset", &text);
-    let tiny = NEAR_LIGHTS
-        .replace("max = [9, 4, 12]", "max = [9, 0.01, 12]")
-        .replace("range = 1.3", "range = 0.2");
+    let tiny =
+        NEAR_LIGHTS.replace("max = [9, 4, 12]", "max = [9, 0.01, 12]").replace("range = 1.3", "range = 0.2");
     report("tiny", &world(PERSPECTIVE, &tiny, "[160, 96]"));
 }
 
@@ -191,11 +150,7 @@ fn random_views() {
         f64::from(state >> 8) / 16_777_216.0
     };
     for _ in 0..12 {
-        let position = [
-            next() * 16.0 - 8.0,
-            0.2 + next() * 6.0,
-            next() * 20.0 - 10.0,
-        ];
+        let position = [next() * 16.0 - 8.0, 0.2 + next() * 6.0, next() * 20.0 - 10.0];
         let target = [next() * 6.0 - 3.0, 0.1, next() * 6.0 - 3.0];
         let camera = format!(
             "position = {position:?}\ntarget = {target:?}\nvertical_fov = {}\n",

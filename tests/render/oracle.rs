@@ -1,32 +1,18 @@
 //! Pictures against the double-precision oracle.
 
 use crate::support::{
-    FIVE_MATERIALS, Rig, assert_close, oracle, ranged_lights, relative_errors, scene,
-    unranged_lights,
+    FIVE_MATERIALS, Rig, assert_close, oracle, ranged_lights, relative_errors, scene, unranged_lights,
 };
 
 #[test]
 fn all_materials_under_ranged_and_unranged_lights() {
-    let mut rig = Rig::new(scene(&format!(
-        "{FIVE_MATERIALS}{}{}",
-        ranged_lights(500, 1.0),
-        unranged_lights(20)
-    )));
+    let mut rig =
+        Rig::new(scene(&format!("{FIVE_MATERIALS}{}{}", ranged_lights(500, 1.0), unranged_lights(20))));
     let expected = oracle(&rig.scene);
     let picture = rig.render();
     assert_close(&picture, &expected, 0.99, 1e-4);
-    let mean = |image: &amas::HdrImage| {
-        image
-            .pixels
-            .iter()
-            .flatten()
-            .map(|&v| f64::from(v))
-            .sum::<f64>()
-    };
-    assert!(
-        (mean(&picture) / mean(&expected) - 1.0).abs() < 1e-4,
-        "mean bias"
-    );
+    let mean = |image: &amas::HdrImage| image.pixels.iter().flatten().map(|&v| f64::from(v)).sum::<f64>();
+    assert!((mean(&picture) / mean(&expected) - 1.0).abs() < 1e-4, "mean bias");
 }
 
 #[test]
@@ -68,10 +54,8 @@ intensity = [1e-38, 1, 1]
 range = 1e6
 "#;
     for samples in [1, 3] {
-        let text = format!("{FIVE_MATERIALS}{lights}").replace(
-            "size = [96, 64]",
-            &format!("size = [96, 64]\nsamples = {samples}"),
-        );
+        let text = format!("{FIVE_MATERIALS}{lights}")
+            .replace("size = [96, 64]", &format!("size = [96, 64]\nsamples = {samples}"));
         Rig::new(scene(&text)).render();
     }
 }

@@ -38,12 +38,7 @@ impl Rig {
         let mut settings = FrameSettings::new(&scene.render, &scene.cameras[0]);
         change(&mut settings);
         let frame = Frame::new(&device, &gpu_scene, settings).unwrap();
-        Self {
-            gpu_scene,
-            frame,
-            scene,
-            _device: device,
-        }
+        Self { gpu_scene, frame, scene, _device: device }
     }
 
     pub(crate) fn render(&mut self) -> HdrImage {
@@ -66,30 +61,17 @@ impl Rig {
 
 /// The oracle's picture of the scene's first camera.
 pub(crate) fn oracle(scene: &Scene) -> HdrImage {
-    reference::render(scene, &scene.cameras[0], &Options::of_scene(scene))
-        .unwrap()
-        .image
+    reference::render(scene, &scene.cameras[0], &Options::of_scene(scene)).unwrap().image
 }
 
 /// Relative errors of all values, ascending, with 1 % of the mean as the floor of the denominator.
 pub(crate) fn relative_errors(a: &HdrImage, b: &HdrImage) -> Vec<f64> {
-    let values = |image: &HdrImage| {
-        image
-            .pixels
-            .iter()
-            .flatten()
-            .map(|&v| f64::from(v))
-            .collect::<Vec<_>>()
-    };
+    let values = |image: &HdrImage| image.pixels.iter().flatten().map(|&v| f64::from(v)).collect::<Vec<_>>();
     let (a, b) = (values(a), values(b));
     assert_eq!(a.len(), b.len());
     let floor = 0.01 * b.iter().sum::<f64>() / b.len() as f64;
     assert!(floor > 0.0, "the reference is not black");
-    let mut errors: Vec<f64> = a
-        .iter()
-        .zip(&b)
-        .map(|(a, b)| (a - b).abs() / b.abs().max(floor))
-        .collect();
+    let mut errors: Vec<f64> = a.iter().zip(&b).map(|(a, b)| (a - b).abs() / b.abs().max(floor)).collect();
     errors.sort_by(f64::total_cmp);
     errors
 }
@@ -98,15 +80,8 @@ pub(crate) fn relative_errors(a: &HdrImage, b: &HdrImage) -> Vec<f64> {
 pub(crate) fn assert_close(a: &HdrImage, b: &HdrImage, quantile: f64, bound: f64) {
     let errors = relative_errors(a, b);
     let at = errors[((errors.len() - 1) as f64 * quantile) as usize];
-    println!(
-        "p{}: {at:.2e}, max {:.2e}",
-        quantile * 100.0,
-        errors[errors.len() - 1]
-    );
-    assert!(
-        at <= bound,
-        "relative error {at} at quantile {quantile}, {bound} allowed"
-    );
+    println!("p{}: {at:.2e}, max {:.2e}", quantile * 100.0, errors[errors.len() - 1]);
+    assert!(at <= bound, "relative error {at} at quantile {quantile}, {bound} allowed");
 }
 
 /// Five spheres of the five materials on a floor, seen from the front.

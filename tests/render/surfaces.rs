@@ -15,20 +15,13 @@ fn shaded_once(rig: &mut Rig) {
     for (count, place) in coverage.iter().zip(&position) {
         assert_eq!(count[0], if place[3] > 0.0 { 1.0 } else { 0.0 });
     }
-    let expected = oracle(&rig.scene)
-        .pixels
-        .iter()
-        .filter(|p| p.iter().any(|v| *v > 0.0))
-        .count();
+    let expected = oracle(&rig.scene).pixels.iter().filter(|p| p.iter().any(|v| *v > 0.0)).count();
     assert!(expected > 0);
 }
 
 #[test]
 fn covered_pixels_are_shaded_exactly_once() {
-    shaded_once(&mut Rig::new(scene(&format!(
-        "{FIVE_MATERIALS}{}",
-        unranged_lights(3)
-    ))));
+    shaded_once(&mut Rig::new(scene(&format!("{FIVE_MATERIALS}{}", unranged_lights(3)))));
 }
 
 #[test]
@@ -39,10 +32,7 @@ fn thin_and_overlapping_triangles_are_shaded_once() {
             format!("[[mesh]]\nshape = \"box\"\nsize = [3, 0.004, 0.3]\nrotate = [{angle}, {}, 17]\ntranslate = [0, 1, 0]\n", i * 4)
         })
         .collect();
-    shaded_once(&mut Rig::new(scene(&format!(
-        "{FIVE_MATERIALS}{blades}{}",
-        unranged_lights(3)
-    ))));
+    shaded_once(&mut Rig::new(scene(&format!("{FIVE_MATERIALS}{blades}{}", unranged_lights(3)))));
 }
 
 /// The same triangle twice, degenerate ones, and a duplicate in another rotation: shaded once all the same.
@@ -64,9 +54,7 @@ fn nothing_but_background() {
     // Lights alone show nothing.
     let mut rig = Rig::new(scene(&format!("{text}{}", ranged_lights(10, 1.0))));
     assert!(rig.render().pixels.iter().all(|p| *p == [0.25, 0.5, 1.0]));
-    let mut rig = Rig::new(scene(
-        &text.replace("background = [0.25, 0.5, 1]", "samples = 5"),
-    ));
+    let mut rig = Rig::new(scene(&text.replace("background = [0.25, 0.5, 1]", "samples = 5")));
     assert!(rig.render().pixels.iter().all(|p| *p == [0.0; 3]));
 }
 
@@ -100,13 +88,7 @@ fn one_sided_back_faces_are_not_drawn() {
                 vertical_fov = 20\n[[material]]\nname = \"m\"\ntype = \"matte\"\ncolor = [1, 1, 1]\ntwo_sided = false\n\
                 [[mesh]]\nshape = \"plane\"\nsize = 9\nmaterial = \"m\"\n[[light]]\ntype = \"point\"\n\
                 position = [0, -2, 0]\nintensity = [1, 1, 1]\n";
-    assert!(
-        Rig::new(scene(text))
-            .render()
-            .pixels
-            .iter()
-            .all(|p| *p == [0.0; 3])
-    );
+    assert!(Rig::new(scene(text)).render().pixels.iter().all(|p| *p == [0.0; 3]));
     let two_sided = text.replace("two_sided = false", "two_sided = true");
     let mut rig = Rig::new(scene(&two_sided));
     assert!(rig.render().pixels.iter().all(|p| p[0] > 0.0));
@@ -114,11 +96,7 @@ fn one_sided_back_faces_are_not_drawn() {
 
 #[test]
 fn the_same_scene_twice_is_the_same_picture() {
-    let text = format!(
-        "{FIVE_MATERIALS}{}{}",
-        ranged_lights(3000, 1.0),
-        unranged_lights(9)
-    );
+    let text = format!("{FIVE_MATERIALS}{}{}", ranged_lights(3000, 1.0), unranged_lights(9));
     let first = Rig::new(scene(&text)).render();
     assert_eq!(first, Rig::new(scene(&text)).render());
 }

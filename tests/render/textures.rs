@@ -30,32 +30,20 @@ fn check(material: &str, texel: impl Fn(u32, u32) -> [u8; 4]) {
 
 /// Every row and column differs, so a flipped or shifted picture fails.
 fn gradient(x: u32, y: u32) -> [u8; 4] {
-    [
-        20 + 25 * x as u8,
-        40 + 20 * y as u8,
-        100 + 10 * (x as u8 ^ y as u8),
-        255,
-    ]
+    [20 + 25 * x as u8, 40 + 20 * y as u8, 100 + 10 * (x as u8 ^ y as u8), 255]
 }
 
 #[test]
 fn colours_are_decoded_and_upright() {
-    check(
-        "type = \"matte\"\ncolor = { texture = \"t.png\" }",
-        gradient,
-    );
-    check(
-        "type = \"principled\"\nbase_color = { texture = \"t.png\" }\nroughness = 0.6",
-        gradient,
-    );
+    check("type = \"matte\"\ncolor = { texture = \"t.png\" }", gradient);
+    check("type = \"principled\"\nbase_color = { texture = \"t.png\" }\nroughness = 0.6", gradient);
 }
 
 #[test]
 fn scalars_are_linear() {
-    check(
-        "type = \"plastic\"\ndiffuse = [0.2, 0.2, 0.2]\nroughness = { texture = \"t.png\" }",
-        |x, y| [120 + 8 * x as u8 + 6 * y as u8, 0, 0, 255],
-    );
+    check("type = \"plastic\"\ndiffuse = [0.2, 0.2, 0.2]\nroughness = { texture = \"t.png\" }", |x, y| {
+        [120 + 8 * x as u8 + 6 * y as u8, 0, 0, 255]
+    });
 }
 
 #[test]
@@ -66,10 +54,9 @@ fn two_textures_take_two_slots() {
 
 #[test]
 fn normal_maps_tilt_along_tangent_and_bitangent() {
-    check(
-        "type = \"matte\"\ncolor = [0.8, 0.8, 0.8]\nnormal_map = \"t.png\"",
-        |x, y| [128 + 9 * (x as u8 % 4), 118 + 5 * (y as u8 % 5), 230, 255],
-    );
+    check("type = \"matte\"\ncolor = [0.8, 0.8, 0.8]\nnormal_map = \"t.png\"", |x, y| {
+        [128 + 9 * (x as u8 % 4), 118 + 5 * (y as u8 % 5), 230, 255]
+    });
 }
 
 #[test]
@@ -90,11 +77,7 @@ fn masks_cut_and_what_is_behind_shows() {
     let picture = rig.render();
     let expected = oracle(&rig.scene);
     let lit = |image: &amas::HdrImage| image.pixels.iter().map(|p| p[0] > 0.0).collect::<Vec<_>>();
-    let differing = lit(&picture)
-        .iter()
-        .zip(lit(&expected))
-        .filter(|(a, b)| **a != *b)
-        .count();
+    let differing = lit(&picture).iter().zip(lit(&expected)).filter(|(a, b)| **a != *b).count();
     // The cut is a line through the picture: a pixel on it may fall on either side.
     assert!(differing <= 4, "{differing}");
     let share = lit(&picture).iter().filter(|lit| **lit).count() as f64 / 14400.0;

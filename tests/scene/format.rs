@@ -9,20 +9,10 @@ use crate::{CAMERA, load, try_load};
 fn a_scene_may_be_a_camera_alone() {
     let scene = load("", &[]);
     assert_eq!(scene.render, Default::default());
-    assert_eq!(
-        (
-            scene.meshes.len(),
-            scene.point_lights.len(),
-            scene.cameras.len()
-        ),
-        (0, 0, 1)
-    );
+    assert_eq!((scene.meshes.len(), scene.point_lights.len(), scene.cameras.len()), (0, 0, 1));
     let camera = &scene.cameras[0];
     assert_eq!((camera.near, camera.far, camera.up), (0.05, None, DVec3::Y));
-    assert_eq!(
-        camera.projection,
-        Projection::Perspective { vertical_fov: 45.0 }
-    );
+    assert_eq!(camera.projection, Projection::Perspective { vertical_fov: 45.0 });
 }
 
 #[test]
@@ -31,22 +21,10 @@ fn every_key_of_render_arrives() {
         background = [0.1, 0.2, 0.3]\nlight_error = 0\nmax_lights_per_cluster = 2_048\n\
         indirect = { vpls = 1000, bounces = 5 }\nshadows = true\n";
     let render = load(toml, &[]).render;
-    assert_eq!(
-        (render.size, render.exposure, render.samples),
-        ([320, 240], -1.0, 16)
-    );
-    assert_eq!(
-        (render.tonemap, render.background),
-        (Tonemap::Aces, [0.1, 0.2, 0.3])
-    );
-    assert_eq!(
-        (render.light_error, render.max_lights_per_cluster),
-        (0.0, 2048)
-    );
-    assert_eq!(
-        (render.vpls, render.bounces, render.shadows),
-        (1000, 5, true)
-    );
+    assert_eq!((render.size, render.exposure, render.samples), ([320, 240], -1.0, 16));
+    assert_eq!((render.tonemap, render.background), (Tonemap::Aces, [0.1, 0.2, 0.3]));
+    assert_eq!((render.light_error, render.max_lights_per_cluster), (0.0, 2048));
+    assert_eq!((render.vpls, render.bounces, render.shadows), (1000, 5, true));
 }
 
 #[test]
@@ -68,13 +46,8 @@ fn overrides_win_over_the_file_and_the_last_one_over_all() {
         ("light_error", "0.5"),
         ("light_error", " 0.25 "),
     ];
-    let render = try_load("[render]\nexposure = 1\nlight_error = 0.1\n", &[], &set)
-        .unwrap()
-        .render;
-    assert_eq!(
-        (render.size, render.exposure, render.tonemap),
-        ([64, 32], 2.0, Tonemap::Aces)
-    );
+    let render = try_load("[render]\nexposure = 1\nlight_error = 0.1\n", &[], &set).unwrap().render;
+    assert_eq!((render.size, render.exposure, render.tonemap), ([64, 32], 2.0, Tonemap::Aces));
     assert_eq!((render.shadows, render.vpls, render.bounces), (true, 5, 1));
     assert_eq!(render.light_error, 0.25);
 }
@@ -115,10 +88,7 @@ fn cameras_have_names_planes_and_paths() {
     let scene = load(toml, &[]);
     assert_eq!(scene.cameras[0].name, "camera 1");
     let top = &scene.cameras[1];
-    assert_eq!(
-        (top.name.as_str(), top.near, top.far),
-        ("top", 1.0, Some(20.0))
-    );
+    assert_eq!((top.name.as_str(), top.near, top.far), ("top", 1.0, Some(20.0)));
     assert_eq!(top.projection, Projection::Orthographic { height: 10.0 });
     assert_eq!(top.up, DVec3::NEG_Z);
     assert_eq!(top.at(1.0).position, DVec3::new(2.0, 10.0, 0.0));
@@ -127,15 +97,9 @@ fn cameras_have_names_planes_and_paths() {
 #[test]
 fn a_byte_order_mark_and_windows_line_ends_are_fine() {
     let toml = format!("\u{feff}{CAMERA}").replace('\n', "\r\n");
-    assert_eq!(
-        load_embedded("t", &toml, &[], &[]).unwrap().cameras.len(),
-        1
-    );
+    assert_eq!(load_embedded("t", &toml, &[], &[]).unwrap().cameras.len(), 1);
     let error = load_embedded("t", &format!("{toml}nera = 1\r\n"), &[], &[]).unwrap_err();
-    assert!(
-        error.to_string().starts_with("t:5: unknown key `nera`"),
-        "{error}"
-    );
+    assert!(error.to_string().starts_with("t:5: unknown key `nera`"), "{error}");
 }
 
 #[test]
@@ -145,20 +109,11 @@ fn files_come_from_beside_the_scene_file() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     std::fs::write(folder.path().join("my models/m.obj"), obj).unwrap();
     let path = folder.path().join("s.toml");
-    std::fs::write(
-        &path,
-        format!("{CAMERA}[[mesh]]\nobj = \"my models/m.obj\"\n"),
-    )
-    .unwrap();
+    std::fs::write(&path, format!("{CAMERA}[[mesh]]\nobj = \"my models/m.obj\"\n")).unwrap();
     assert_eq!(amas::scene::load(&path, &[]).unwrap().meshes.len(), 1);
     std::fs::write(&path, b"# \xff\n").unwrap();
     let error = amas::scene::load(&path, &[]).unwrap_err().to_string();
-    assert!(
-        error.contains("s.toml:1: ") && error.contains("UTF-8"),
-        "{error}"
-    );
-    let error = amas::scene::load(&folder.path().join("none.toml"), &[])
-        .unwrap_err()
-        .to_string();
+    assert!(error.contains("s.toml:1: ") && error.contains("UTF-8"), "{error}");
+    let error = amas::scene::load(&folder.path().join("none.toml"), &[]).unwrap_err().to_string();
     assert!(error.contains("none.toml: cannot read"), "{error}");
 }

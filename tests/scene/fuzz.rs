@@ -46,37 +46,18 @@ fn edited(text: &str, edits: &[Edit]) -> Vec<u8> {
 }
 
 /// Loads the scene made of these texts.
-fn survives(
-    toml: &str,
-    obj: &[u8],
-    mtl: &[u8],
-    csv: &[u8],
-    set: &str,
-) -> Result<bool, TestCaseError> {
+fn survives(toml: &str, obj: &[u8], mtl: &[u8], csv: &[u8], set: &str) -> Result<bool, TestCaseError> {
     let files: [(&str, &[u8]); 3] = [("m.obj", obj), ("m.mtl", mtl), ("l.csv", csv)];
-    let set: Vec<_> = set
-        .split_once('=')
-        .map(|(k, v)| (k.to_owned(), v.to_owned()))
-        .into_iter()
-        .collect();
-    let loaded = catch_unwind(AssertUnwindSafe(|| {
-        load_embedded("t.toml", toml, &files, &set)
-    }));
+    let set: Vec<_> = set.split_once('=').map(|(k, v)| (k.to_owned(), v.to_owned())).into_iter().collect();
+    let loaded = catch_unwind(AssertUnwindSafe(|| load_embedded("t.toml", toml, &files, &set)));
     match loaded {
         Ok(Ok(scene)) => {
-            prop_assert!(
-                catch_unwind(AssertUnwindSafe(|| check(&scene))).is_ok(),
-                "invalid scene"
-            );
+            prop_assert!(catch_unwind(AssertUnwindSafe(|| check(&scene))).is_ok(), "invalid scene");
             Ok(true)
         }
         Ok(Err(error)) => {
             let text = error.to_string();
-            prop_assert!(
-                text.contains("remedy: ") && error.exit_code() == 2,
-                "{}",
-                text
-            );
+            prop_assert!(text.contains("remedy: ") && error.exit_code() == 2, "{}", text);
             Ok(false)
         }
         Err(_) => Err(TestCaseError::fail("it panicked")),
@@ -90,16 +71,7 @@ fn edits() -> impl Strategy<Value = Vec<Edit>> {
 #[test]
 fn the_unchanged_scene_loads() {
     let toml = format!("{CAMERA}{TOML}");
-    assert!(
-        survives(
-            &toml,
-            OBJ.as_bytes(),
-            MTL.as_bytes(),
-            CSV.as_bytes(),
-            "exposure=1"
-        )
-        .unwrap()
-    );
+    assert!(survives(&toml, OBJ.as_bytes(), MTL.as_bytes(), CSV.as_bytes(), "exposure=1").unwrap());
 }
 
 proptest! {

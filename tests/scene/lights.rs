@@ -30,10 +30,7 @@ fn csv_columns_go_by_name_and_no_range_is_none() {
         intensity: Vec3::new(4.0, 5.0, 6.0),
         range: Some(7.0),
     };
-    let unranged = PointLight {
-        range: None,
-        ..light
-    };
+    let unranged = PointLight { range: None, ..light };
     assert_eq!(lights, [light, unranged, unranged, unranged]);
     assert_eq!(points(FILE, "x,y,z,r,g,b\n1,2,3,4,5,6\n"), [unranged]);
     assert_eq!(points(FILE, "B, G, R, Z, Y, X\n6,5,4,3,2,1"), [unranged]);
@@ -53,31 +50,19 @@ fn the_generator_is_the_documented_one() {
         let (x, z, y, hue) = (next(), next(), next(), next());
         close(
             &light.position.to_array(),
-            &[
-                -20.0 + 40.0 * x as f32,
-                0.2 + 1.8 * y as f32,
-                -20.0 + 40.0 * z as f32,
-            ],
+            &[-20.0 + 40.0 * x as f32, 0.2 + 1.8 * y as f32, -20.0 + 40.0 * z as f32],
         );
         // HSV of saturation 0.8 and value 1, twice.
-        close(
-            &[light.intensity.max_element(), light.intensity.min_element()],
-            &[2.0, 0.4],
-        );
+        close(&[light.intensity.max_element(), light.intensity.min_element()], &[2.0, 0.4]);
         let sector = (hue * 6.0) as usize;
         let brightest = [0, 1, 1, 2, 2, 0][sector];
         assert_eq!(light.intensity[brightest], 2.0, "hue {hue}");
         assert_eq!(light.range, Some(2.0));
     }
     let ranged = toml.replace("[2, 2]", "[1, 3]");
-    let bright = points(&ranged, "")
-        .into_iter()
-        .map(|light| light.intensity.max_element());
+    let bright = points(&ranged, "").into_iter().map(|light| light.intensity.max_element());
     let bright: Vec<f32> = bright.collect();
-    assert!(
-        bright.iter().all(|x| (1.0..=3.0).contains(x)) && bright[0] != bright[1],
-        "{bright:?}"
-    );
+    assert!(bright.iter().all(|x| (1.0..=3.0).contains(x)) && bright[0] != bright[1], "{bright:?}");
 }
 
 #[test]
@@ -85,16 +70,8 @@ fn a_million_lights_fit() {
     let toml = "[[light]]\ntype = \"points\"\ngenerate = { count = 1048576, min = [0, 0, 0], max = [1, 1, 1], intensity = [0, 1] }\n";
     let lights = points(toml, "");
     assert_eq!(lights.len(), 1 << 20);
-    assert!(
-        lights
-            .iter()
-            .all(|l| l.position.cmpge(Vec3::ZERO).all() && l.position.cmple(Vec3::ONE).all())
-    );
-    let mean = lights
-        .iter()
-        .map(|l| l.position.as_dvec3())
-        .sum::<glam::DVec3>()
-        / lights.len() as f64;
+    assert!(lights.iter().all(|l| l.position.cmpge(Vec3::ZERO).all() && l.position.cmple(Vec3::ONE).all()));
+    let mean = lights.iter().map(|l| l.position.as_dvec3()).sum::<glam::DVec3>() / lights.len() as f64;
     assert!((mean - 0.5).abs().max_element() < 2e-3, "{mean}");
 }
 
@@ -109,46 +86,24 @@ fn area_lights_of_every_shape() {
         [[light]]\ntype = \"polygon\"\nvertices = [[0,0,0],[4,0,0],[4,4,0],[2,1,0],[0,4,0]]\n\
         holes = [[[1,0.5,0],[1,0.2,0],[2,0.2,0]]]\nuvs = [[0,0],[1,0],[1,1],[0.5,0.2],[0,1]]\nradiance = [1, 1, 1]\n";
     let scene = load(toml, &[("p.png", &picture)]);
-    let [rect, disk, ellipse, line, polygon] = &scene.area_lights[..] else {
-        panic!("five lights")
-    };
+    let [rect, disk, ellipse, line, polygon] = &scene.area_lights[..] else { panic!("five lights") };
     assert_eq!(rect.radiance, Vec3::new(1.0, 2.0, 3.0));
-    assert_eq!(
-        (rect.two_sided, rect.visible, rect.texture),
-        (true, false, Some(0))
-    );
-    assert_eq!(
-        (disk.two_sided, disk.visible, disk.texture),
-        (false, true, None)
-    );
-    let AreaShape::Disk { u, v, .. } = disk.shape else {
-        panic!("a disk")
-    };
+    assert_eq!((rect.two_sided, rect.visible, rect.texture), (true, false, Some(0)));
+    assert_eq!((disk.two_sided, disk.visible, disk.texture), (false, true, None));
+    let AreaShape::Disk { u, v, .. } = disk.shape else { panic!("a disk") };
     close(&u.cross(v).to_array(), &[0.0, 0.0, 4.0]);
     close(&u.to_array(), &[2.0, 0.0, 0.0]);
     assert!(matches!(ellipse.shape, AreaShape::Disk { v, .. } if v.y == 3.0));
     assert!(matches!(line.shape, AreaShape::Line { radius: 0.1, .. }));
-    let AreaShape::Polygon {
-        vertices,
-        holes,
-        uvs,
-    } = &polygon.shape
-    else {
-        panic!("a polygon")
-    };
-    assert_eq!(
-        (vertices.len(), holes.len(), uvs.as_ref().map(Vec::len)),
-        (5, 1, Some(5))
-    );
+    let AreaShape::Polygon { vertices, holes, uvs } = &polygon.shape else { panic!("a polygon") };
+    assert_eq!((vertices.len(), holes.len(), uvs.as_ref().map(Vec::len)), (5, 1, Some(5)));
 }
 
 #[test]
 fn a_disk_that_faces_straight_down_has_a_frame() {
     let toml = "[[light]]\ntype = \"disk\"\ncenter = [0, 1, 0]\nnormal = [0, -1, 0]\nradius = 1\nradiance = [1, 1, 1]\n";
     let scene = load(toml, &[]);
-    let AreaShape::Disk { u, v, .. } = scene.area_lights[0].shape else {
-        panic!("a disk")
-    };
+    let AreaShape::Disk { u, v, .. } = scene.area_lights[0].shape else { panic!("a disk") };
     close(&u.cross(v).to_array(), &[0.0, -1.0, 0.0]);
 }
 

@@ -22,10 +22,7 @@ const CAMERA: &str = "[[camera]]\nposition = [0, 1, 5]\ntarget = [0, 1, 0]\nvert
 
 /// Loads `CAMERA` and `toml`.
 fn try_load(toml: &str, files: &[(&str, &[u8])], set: &[(&str, &str)]) -> amas::Result<Scene> {
-    let set: Vec<_> = set
-        .iter()
-        .map(|(k, v)| (k.to_string(), v.to_string()))
-        .collect();
+    let set: Vec<_> = set.iter().map(|(k, v)| (k.to_string(), v.to_string())).collect();
     load_embedded("test.toml", &format!("{CAMERA}{toml}"), files, &set)
 }
 
@@ -35,10 +32,7 @@ fn load(toml: &str, files: &[(&str, &[u8])]) -> Scene {
 
 /// The one mesh of an OBJ, with further keys of its `[[mesh]]`.
 fn obj(text: &str, keys: &str) -> Mesh {
-    let scene = load(
-        &format!("[[mesh]]\nobj = \"m.obj\"\n{keys}"),
-        &[("m.obj", text.as_bytes())],
-    );
+    let scene = load(&format!("[[mesh]]\nobj = \"m.obj\"\n{keys}"), &[("m.obj", text.as_bytes())]);
     assert_eq!(scene.meshes.len(), 1, "one material, one mesh");
     scene.meshes.into_iter().next().unwrap()
 }
@@ -46,9 +40,7 @@ fn obj(text: &str, keys: &str) -> Mesh {
 fn png(width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Vec<u8> {
     let picture = image::RgbaImage::from_fn(width, height, |x, y| image::Rgba(texel(x, y)));
     let mut bytes = Vec::new();
-    picture
-        .write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png)
-        .unwrap();
+    picture.write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png).unwrap();
     bytes
 }
 
@@ -70,25 +62,11 @@ fn check(scene: &Scene) {
             assert!((length(&vertex.normal) - 1.0).abs() < 1e-4, "{vertex:?}");
             let [x, y, z, w] = vertex.tangent;
             let tangent = length(&[x, y, z]);
-            assert!(
-                vertex.tangent == [0.0; 4] || (tangent - 1.0).abs() < 1e-4,
-                "{vertex:?}"
-            );
+            assert!(vertex.tangent == [0.0; 4] || (tangent - 1.0).abs() < 1e-4, "{vertex:?}");
             assert!(w == 0.0 || w.abs() == 1.0, "{vertex:?}");
-            let dot: f32 = vertex
-                .normal
-                .iter()
-                .zip([x, y, z])
-                .map(|(n, t)| n * t)
-                .sum();
+            let dot: f32 = vertex.normal.iter().zip([x, y, z]).map(|(n, t)| n * t).sum();
             assert!(dot.abs() < 1e-4, "{vertex:?}");
-            assert!(
-                vertex
-                    .position
-                    .iter()
-                    .chain(&vertex.uv)
-                    .all(|x| x.is_finite())
-            );
+            assert!(vertex.position.iter().chain(&vertex.uv).all(|x| x.is_finite()));
         }
     }
 }

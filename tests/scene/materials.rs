@@ -14,8 +14,7 @@ fn row(scene: &Scene, parameter: Parameter) -> [f32; 3] {
 
 #[test]
 fn constants_arrive_in_their_rows() {
-    let scene =
-        material("type = \"matte\"\ncolor = [0.1, 0.2, 0.3]\nsigma = 20\ntwo_sided = false");
+    let scene = material("type = \"matte\"\ncolor = [0.1, 0.2, 0.3]\nsigma = 20\ntwo_sided = false");
     assert_eq!(scene.materials[0].model, Model::Matte);
     assert!(!scene.materials[0].two_sided);
     close(&row(&scene, Parameter::Color), &[0.1, 0.2, 0.3]);
@@ -36,8 +35,7 @@ fn constants_arrive_in_their_rows() {
         (Parameter::Subsurface, 0.9),
         (Parameter::Aspect, 1.0),
     ];
-    rows.iter()
-        .for_each(|(parameter, value)| close(&row(&scene, *parameter)[..1], &[*value]));
+    rows.iter().for_each(|(parameter, value)| close(&row(&scene, *parameter)[..1], &[*value]));
     assert!(scene.materials[0].squared_roughness && scene.materials[0].two_sided);
 }
 
@@ -45,30 +43,15 @@ fn constants_arrive_in_their_rows() {
 fn defaults_are_the_documented_ones() {
     let plastic = material("type = \"plastic\"");
     close(&row(&plastic, Parameter::Specular), &[1.0; 3]);
-    close(
-        &[
-            row(&plastic, Parameter::Eta)[0],
-            row(&plastic, Parameter::Roughness)[0],
-        ],
-        &[1.5, 0.5],
-    );
+    close(&[row(&plastic, Parameter::Eta)[0], row(&plastic, Parameter::Roughness)[0]], &[1.5, 0.5]);
     assert!(plastic.materials[0].squared_roughness);
     let principled = material("type = \"principled\"");
     close(
-        &[
-            row(&principled, Parameter::SheenTint)[0],
-            row(&principled, Parameter::ClearcoatGloss)[0],
-        ],
+        &[row(&principled, Parameter::SheenTint)[0], row(&principled, Parameter::ClearcoatGloss)[0]],
         &[0.5, 1.0],
     );
-    close(
-        &row(&material("type = \"substrate\""), Parameter::Specular),
-        &[0.05; 3],
-    );
-    assert_eq!(
-        row(&material("type = \"matte\""), Parameter::Roughness),
-        [0.0; 3]
-    );
+    close(&row(&material("type = \"substrate\""), Parameter::Specular), &[0.05; 3]);
+    assert_eq!(row(&material("type = \"matte\""), Parameter::Roughness), [0.0; 3]);
 }
 
 #[test]
@@ -76,33 +59,22 @@ fn alpha_pairs_and_anisotropic_become_alpha_and_aspect() {
     let gold = "type = \"metal\"\npreset = \"gold\"\n";
     let scene = material(&format!("{gold}alpha = [0.1, 0.4]"));
     assert!(!scene.materials[0].squared_roughness);
-    let (alpha, aspect) = (
-        row(&scene, Parameter::Roughness)[0],
-        row(&scene, Parameter::Aspect)[0],
-    );
+    let (alpha, aspect) = (row(&scene, Parameter::Roughness)[0], row(&scene, Parameter::Aspect)[0]);
     close(&[alpha / aspect, alpha * aspect], &[0.1, 0.4]);
     let scene = material(&format!("{gold}alpha = 0.3\nanisotropic = 0.5"));
     close(
-        &[
-            row(&scene, Parameter::Roughness)[0],
-            row(&scene, Parameter::Aspect)[0],
-        ],
+        &[row(&scene, Parameter::Roughness)[0], row(&scene, Parameter::Aspect)[0]],
         &[0.3, 0.55_f32.sqrt()],
     );
     let scene = material(&format!("{gold}alpha = [0, 0.4]"));
-    assert!(
-        row(&scene, Parameter::Aspect)[0].is_finite() && row(&scene, Parameter::Roughness)[0] > 0.0
-    );
+    assert!(row(&scene, Parameter::Aspect)[0].is_finite() && row(&scene, Parameter::Roughness)[0] > 0.0);
 }
 
 #[test]
 fn presets_have_the_colour_of_their_metal() {
     for name in ["gold", "silver", "copper", "aluminium", "iron", "chromium"] {
         let scene = material(&format!("type = \"metal\"\npreset = \"{name}\""));
-        let (eta, k) = (
-            row(&scene, Parameter::Color),
-            row(&scene, Parameter::Specular),
-        );
+        let (eta, k) = (row(&scene, Parameter::Color), row(&scene, Parameter::Specular));
         let reflectance = |i: usize| {
             let (n, k) = (eta[i], k[i]);
             ((n - 1.0).powi(2) + k * k) / ((n + 1.0).powi(2) + k * k)
@@ -112,10 +84,7 @@ fn presets_have_the_colour_of_their_metal() {
         match name {
             "gold" | "copper" => assert!(warm && r > 0.9 && b < 0.6, "{name} {r} {g} {b}"),
             "silver" | "aluminium" => assert!(r.min(g).min(b) > 0.9, "{name} {r} {g} {b}"),
-            _ => assert!(
-                (0.45..0.65).contains(&r) && (r - b).abs() < 0.1,
-                "{name} {r} {g} {b}"
-            ),
+            _ => assert!((0.45..0.65).contains(&r) && (r - b).abs() < 0.1, "{name} {r} {g} {b}"),
         }
     }
 }
@@ -125,17 +94,8 @@ fn anisotropy_without_texture_coordinates_is_a_warning() {
     let toml = "[[material]]\nname = \"m\"\ntype = \"metal\"\npreset = \"gold\"\nalpha = [0.1, 0.2]\n\
         [[mesh]]\nobj = \"m.obj\"\nmaterial = \"m\"\n[[mesh]]\nshape = \"plane\"\nmaterial = \"m\"\n";
     let scene = load(toml, &[("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")]);
-    assert_eq!(
-        scene.warnings.len(),
-        1,
-        "the plane has coordinates: {:?}",
-        scene.warnings
-    );
-    assert!(
-        scene.warnings[0].contains("isotropic"),
-        "{:?}",
-        scene.warnings
-    );
+    assert_eq!(scene.warnings.len(), 1, "the plane has coordinates: {:?}", scene.warnings);
+    assert!(scene.warnings[0].contains("isotropic"), "{:?}", scene.warnings);
 }
 
 #[test]

@@ -9,10 +9,8 @@ const CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -
     f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
 fn shape(keys: &str) -> amas::Scene {
-    let scene = load(
-        &format!("[[material]]\nname=\"m\"\ntype=\"matte\"\n[[mesh]]\nmaterial=\"m\"\n{keys}"),
-        &[],
-    );
+    let scene =
+        load(&format!("[[material]]\nname=\"m\"\ntype=\"matte\"\n[[mesh]]\nmaterial=\"m\"\n{keys}"), &[]);
     check(&scene);
     scene
 }
@@ -20,10 +18,7 @@ fn shape(keys: &str) -> amas::Scene {
 /// Signed volume: positive where the triangles face outwards.
 fn volume(mesh: &amas::scene::Mesh) -> f32 {
     let p = |i: u32| Vec3::from(mesh.vertices[i as usize].position);
-    mesh.triangles
-        .iter()
-        .map(|[a, b, c]| p(*a).dot(p(*b).cross(p(*c))) / 6.0)
-        .sum()
+    mesh.triangles.iter().map(|[a, b, c]| p(*a).dot(p(*b).cross(p(*c))) / 6.0).sum()
 }
 
 #[test]
@@ -45,9 +40,7 @@ fn flat_normals_are_those_of_the_faces() {
     for [a, b, c] in &mesh.triangles {
         let [a, b, c] = [a, b, c].map(|i| mesh.vertices[*i as usize]);
         let face = Vec3::from(b.position) - Vec3::from(a.position);
-        let face = face
-            .cross(Vec3::from(c.position) - Vec3::from(a.position))
-            .normalize();
+        let face = face.cross(Vec3::from(c.position) - Vec3::from(a.position)).normalize();
         close(&a.normal, &face.to_array());
         assert_eq!((a.normal, b.normal), (b.normal, c.normal));
     }
@@ -57,23 +50,14 @@ fn flat_normals_are_those_of_the_faces() {
 fn a_sheet_of_two_sides_gets_the_normals_of_its_faces() {
     let mesh = obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n", "");
     assert_eq!(mesh.triangles.len(), 2, "the other winding is no duplicate");
-    assert_eq!(
-        mesh.vertices.iter().filter(|v| v.normal[2] == 1.0).count(),
-        3
-    );
-    assert_eq!(
-        mesh.vertices.iter().filter(|v| v.normal[2] == -1.0).count(),
-        3
-    );
+    assert_eq!(mesh.vertices.iter().filter(|v| v.normal[2] == 1.0).count(), 3);
+    assert_eq!(mesh.vertices.iter().filter(|v| v.normal[2] == -1.0).count(), 3);
 }
 
 #[test]
 fn a_transform_scales_then_rotates_x_y_z_then_moves() {
     let text = "v 1 2 3\nv 2 2 3\nv 1 3 3\nvn 0 0 1\nf 1//1 2//1 3//1\n";
-    let mesh = obj(
-        text,
-        "scale = [2, 1, 1]\nrotate = [90, 90, 0]\ntranslate = [10, 0, 0]",
-    );
+    let mesh = obj(text, "scale = [2, 1, 1]\nrotate = [90, 90, 0]\ntranslate = [10, 0, 0]");
     // (1, 2, 3) → (2, 2, 3) → about x: (2, −3, 2) → about y: (2, −3, −2) → (12, −3, −2).
     close(&mesh.vertices[0].position, &[12.0, -3.0, -2.0]);
     // +z → about x: −y → about y: −y.
@@ -97,19 +81,11 @@ fn tangents_follow_u_and_split_at_a_mirror() {
     let text = "v -1 0 0\nv 0 0 0\nv 0 1 0\nv -1 1 0\nv 1 0 0\nv 1 1 0\n\
         vt 1 0\nvt 0 0\nvt 0 1\nvt 1 1\nf 1/1 2/2 3/3 4/4\nf 2/2 5/1 6/4 3/3\n";
     let mesh = obj(text, "");
-    assert_eq!(
-        mesh.vertices.len(),
-        8,
-        "the two shared vertices became four"
-    );
+    assert_eq!(mesh.vertices.len(), 8, "the two shared vertices became four");
     for triangle in &mesh.triangles {
         let corners = triangle.map(|i| mesh.vertices[i as usize]);
         let right = corners.iter().any(|v| v.position[0] > 0.0);
-        let expected = if right {
-            [1.0, 0.0, 0.0, 1.0]
-        } else {
-            [-1.0, 0.0, 0.0, -1.0]
-        };
+        let expected = if right { [1.0, 0.0, 0.0, 1.0] } else { [-1.0, 0.0, 0.0, -1.0] };
         corners.iter().for_each(|v| close(&v.tangent, &expected));
     }
 }
@@ -140,25 +116,14 @@ fn a_sphere_has_its_triangles_normals_and_eastward_tangents() {
     assert!(part > 0.97 && part < 1.0, "{part}");
     for vertex in &mesh.vertices {
         let [x, _, z] = vertex.position;
-        close(
-            &(Vec3::from(vertex.normal) * 0.4).to_array(),
-            &vertex.position,
-        );
+        close(&(Vec3::from(vertex.normal) * 0.4).to_array(), &vertex.position);
         assert_eq!(vertex.tangent[3], 1.0);
         if x.hypot(z) > 0.01 {
             let east = Vec3::new(z, 0.0, -x).normalize();
-            assert!(
-                east.dot(Vec3::from_slice(&vertex.tangent[..3])) > 0.99,
-                "{vertex:?}"
-            );
+            assert!(east.dot(Vec3::from_slice(&vertex.tangent[..3])) > 0.99, "{vertex:?}");
         }
     }
-    assert_eq!(
-        shape("shape = \"sphere\"\nsegments = 8").meshes[0]
-            .triangles
-            .len(),
-        2 * 8 * 3
-    );
+    assert_eq!(shape("shape = \"sphere\"\nsegments = 8").meshes[0].triangles.len(), 2 * 8 * 3);
 }
 
 #[test]
@@ -168,27 +133,15 @@ fn plane_box_and_disk_have_their_size_and_face_the_right_way() {
     for vertex in &plane.vertices {
         let [u, v] = vertex.uv;
         close(&vertex.position, &[4.0 * u - 2.0, 0.0, 1.0 - 2.0 * v]);
-        assert_eq!(
-            (vertex.normal, vertex.tangent),
-            ([0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 1.0])
-        );
+        assert_eq!((vertex.normal, vertex.tangent), ([0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 1.0]));
     }
     let cuboid = &shape("shape = \"box\"\nsize = [1, 2, 3]").meshes[0];
     assert_eq!((cuboid.vertices.len(), cuboid.triangles.len()), (24, 12));
     close(&[volume(cuboid)], &[6.0]);
-    assert!(
-        cuboid
-            .vertices
-            .iter()
-            .all(|v| Vec3::from(v.normal).dot(v.position.into()) > 0.0)
-    );
+    assert!(cuboid.vertices.iter().all(|v| Vec3::from(v.normal).dot(v.position.into()) > 0.0));
     let disk = &shape("shape = \"disk\"\nradius = 2\nsegments = 6").meshes[0];
     assert_eq!((disk.vertices.len(), disk.triangles.len()), (7, 6));
-    assert!(
-        disk.vertices
-            .iter()
-            .all(|v| v.normal == [0.0, 1.0, 0.0] && v.tangent[3] == 1.0)
-    );
+    assert!(disk.vertices.iter().all(|v| v.normal == [0.0, 1.0, 0.0] && v.tangent[3] == 1.0));
     let up = |[a, b, c]: &[u32; 3]| {
         let p = |i: &u32| Vec3::from(disk.vertices[*i as usize].position);
         (p(b) - p(a)).cross(p(c) - p(a)).y > 0.0
@@ -200,9 +153,5 @@ fn plane_box_and_disk_have_their_size_and_face_the_right_way() {
 fn a_shape_without_material_is_grey_and_said_so() {
     let scene = load("[[mesh]]\nshape = \"box\"\n", &[]);
     assert_eq!(scene.materials[0].parameters[0].constant, [0.5; 3]);
-    assert!(
-        scene.warnings[0].contains("test.toml:5"),
-        "{:?}",
-        scene.warnings
-    );
+    assert!(scene.warnings[0].contains("test.toml:5"), "{:?}", scene.warnings);
 }

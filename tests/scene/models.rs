@@ -18,11 +18,7 @@ fn model(file: &str, keys: &str) -> Option<amas::Scene> {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("s.toml");
     let path = path.canonicalize().unwrap();
-    std::fs::write(
-        &scene,
-        format!("{CAMERA}[[mesh]]\nobj = '{}'\n{keys}\n", path.display()),
-    )
-    .unwrap();
+    std::fs::write(&scene, format!("{CAMERA}[[mesh]]\nobj = '{}'\n{keys}\n", path.display())).unwrap();
     let scene = amas::scene::load(&scene, &[]).unwrap();
     check(&scene);
     Some(scene)
@@ -34,10 +30,7 @@ fn triangles(scene: &amas::Scene) -> usize {
 
 #[test]
 fn a_small_model_without_mtl_loads_like_the_large_ones() {
-    let mesh = obj(
-        "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 2 3\nf 1 4 2\n",
-        "",
-    );
+    let mesh = obj("mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl a\nf 1 2 3\nf 1 4 2\n", "");
     assert_eq!(mesh.triangles.len(), 2);
 }
 
@@ -47,16 +40,8 @@ fn sponza() {
     let Some(scene) = model("sponza.obj", "scale = 0.01") else {
         return;
     };
-    assert!(
-        (33_000..=33_663).contains(&triangles(&scene)),
-        "{}",
-        triangles(&scene)
-    );
-    assert!(
-        scene.warnings.iter().any(|w| w.contains("sponza.mtl")),
-        "{:?}",
-        scene.warnings
-    );
+    assert!((33_000..=33_663).contains(&triangles(&scene)), "{}", triangles(&scene));
+    assert!(scene.warnings.iter().any(|w| w.contains("sponza.mtl")), "{:?}", scene.warnings);
 }
 
 #[test]
@@ -67,16 +52,8 @@ fn samurai_monastery_within_a_second_and_a_half() {
         return;
     };
     let seconds = start.elapsed().as_secs_f64();
-    println!(
-        "{seconds:.3} s, {} triangles, {:?}",
-        triangles(&scene),
-        scene.warnings
-    );
-    assert!(
-        (120_000..=125_500).contains(&triangles(&scene)),
-        "{}",
-        triangles(&scene)
-    );
+    println!("{seconds:.3} s, {} triangles, {:?}", triangles(&scene), scene.warnings);
+    assert!((120_000..=125_500).contains(&triangles(&scene)), "{}", triangles(&scene));
     assert!(scene.materials.len() <= 82);
     // It takes 0.3 s on an idle core; a debug build has no limit.
     assert!(seconds < 1.5 || cfg!(debug_assertions), "{seconds}");
@@ -85,30 +62,17 @@ fn samurai_monastery_within_a_second_and_a_half() {
 #[test]
 fn spot_bunny_and_teapot() {
     a_small_model_without_mtl_loads_like_the_large_ones();
-    for (file, count) in [
-        ("spot.obj", 5_856),
-        ("stanford-bunny.obj", 69_451),
-        ("teapot.obj", 6_320),
-    ] {
+    for (file, count) in [("spot.obj", 5_856), ("stanford-bunny.obj", 69_451), ("teapot.obj", 6_320)] {
         let Some(scene) = model(file, "") else { return };
         let found = triangles(&scene);
-        assert!(
-            found <= count && found * 100 >= count * 98,
-            "{file}: {found}"
-        );
+        assert!(found <= count && found * 100 >= count * 98, "{file}: {found}");
     }
 }
 
 #[test]
 fn the_reference_scenes_load() {
     a_small_model_without_mtl_loads_like_the_large_ones();
-    for name in [
-        "a_rect_metal",
-        "b_rect_plastic",
-        "d_disk_mixed",
-        "f_points64",
-        "g_cornell",
-    ] {
+    for name in ["a_rect_metal", "b_rect_plastic", "d_disk_mixed", "f_points64", "g_cornell"] {
         let path = shared().join("reference").join(name).join("scene.toml");
         if !path.exists() {
             return;

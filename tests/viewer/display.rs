@@ -26,11 +26,7 @@ impl Display {
             .unwrap_or_else(|error| panic!("Xvfb: {error}; run ./setup, which installs it"));
         let mut number = String::new();
         let answer = BufReader::new(server.stdout.take().unwrap()).read_line(&mut number);
-        let display = Self {
-            name: format!(":{}", number.trim()),
-            server,
-            folder,
-        };
+        let display = Self { name: format!(":{}", number.trim()), server, folder };
         assert!(answer.unwrap() > 0, "Xvfb does not start");
         display
     }
@@ -39,8 +35,7 @@ impl Display {
     pub(super) fn corner(&self, [width, height]: [usize; 2]) -> Vec<[u8; 3]> {
         // An XWD file: a header of big-endian words, a colour map, rows of pixels.
         let file = std::fs::read(self.folder.path().join("Xvfb_screen0")).unwrap();
-        let word =
-            |index: usize| u32::from_be_bytes(file[4 * index..][..4].try_into().unwrap()) as usize;
+        let word = |index: usize| u32::from_be_bytes(file[4 * index..][..4].try_into().unwrap()) as usize;
         let (header, row, colors) = (word(0), word(12), word(19));
         assert_eq!((word(7), word(11)), (0, 32), "pixels are not BGRX");
         let pixels = &file[header + 12 * colors..];
@@ -78,9 +73,7 @@ impl Client {
         let socket = PathBuf::from(format!("/tmp/.X11-unix/X{}", &display[1..]));
         let mut stream = UnixStream::connect(socket).unwrap();
         // Little-endian, protocol 11, no authorisation.
-        stream
-            .write_all(&[b'l', 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0])
-            .unwrap();
+        stream.write_all(&[b'l', 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0]).unwrap();
         let mut head = [0; 8];
         stream.read_exact(&mut head).unwrap();
         assert_eq!(head[0], 1, "the X server refuses");
@@ -89,11 +82,7 @@ impl Client {
         // The first screen follows the vendor's name and the pixmap formats.
         let vendor = usize::from(half(&setup, 16)).next_multiple_of(4);
         let screen = 32 + vendor + 8 * usize::from(setup[21]);
-        let mut client = Self {
-            stream,
-            root: full(&setup, screen),
-            xtest: 0,
-        };
+        let mut client = Self { stream, root: full(&setup, screen), xtest: 0 };
         let extension = client.ask(98, 0, b"\x05\0\0\0XTEST\0\0\0");
         assert_eq!(extension[8], 1, "the X server has no XTEST");
         client.xtest = extension[9];
@@ -102,9 +91,7 @@ impl Client {
 
     pub(super) fn window_of_size(&mut self, size: [u16; 2]) -> Option<u32> {
         let tree = self.ask(15, 0, &self.root.to_le_bytes());
-        let windows: Vec<u32> = (0..usize::from(half(&tree, 16)))
-            .map(|i| full(&tree, 32 + 4 * i))
-            .collect();
+        let windows: Vec<u32> = (0..usize::from(half(&tree, 16))).map(|i| full(&tree, 32 + 4 * i)).collect();
         windows.into_iter().find(|window| {
             let geometry = self.ask(14, 0, &window.to_le_bytes());
             [half(&geometry, 16), half(&geometry, 18)] == size

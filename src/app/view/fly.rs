@@ -83,8 +83,8 @@ impl Fly {
         let up = self.camera.up.normalize();
         let from_up = basis.forward.angle_between(up);
         let lowered = (from_up + down * field).clamp(POLE, PI - POLE) - from_up;
-        let rotation = DQuat::from_axis_angle(up, -right * field)
-            * DQuat::from_axis_angle(basis.right, -lowered);
+        let rotation =
+            DQuat::from_axis_angle(up, -right * field) * DQuat::from_axis_angle(basis.right, -lowered);
         let offset = self.camera.target - self.camera.position;
         self.camera.target = self.camera.position + rotation * offset;
         self.turned = true;
@@ -102,12 +102,7 @@ impl Fly {
 
     fn advance(&mut self, seconds: f64) {
         let basis = self.camera.basis();
-        let way: DVec3 = KEYS
-            .iter()
-            .zip(self.held)
-            .filter(|&(_, held)| held)
-            .map(|(&(_, way), _)| way)
-            .sum();
+        let way: DVec3 = KEYS.iter().zip(self.held).filter(|&(_, held)| held).map(|(&(_, way), _)| way).sum();
         let way = basis.right * way.x + self.camera.up.normalize() * way.y + basis.forward * way.z;
         let step = way.normalize_or_zero() * self.speed * seconds;
         self.camera.position += step;

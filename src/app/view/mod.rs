@@ -42,9 +42,7 @@ fn open(options: &ViewOptions, scene: &Scene, fly: Fly) -> Result<()> {
         remaining: options.frames,
         outcome: Ok(()),
     };
-    event_loop
-        .run_app(&mut viewer)
-        .map_err(|error| no_display(&error.to_string()))?;
+    event_loop.run_app(&mut viewer).map_err(|error| no_display(&error.to_string()))?;
     let device = viewer.stage.take().map(|stage| stage.device.clone());
     viewer.outcome?;
     device.map_or(Ok(()), |device| device.require_silence())
@@ -78,12 +76,8 @@ fn no_display(reason: &str) -> Error {
         .and_then(|rest| rest.split_once(": "))
         .map_or(reason, |(_, reason)| reason);
     Error::NoDevice {
-        cause: format!(
-            "there is no display to open a window on ({})",
-            reason.trim_end_matches('.')
-        ),
-        remedy: "start it from a desktop session, and run ./setup for the display's libraries"
-            .into(),
+        cause: format!("there is no display to open a window on ({})", reason.trim_end_matches('.')),
+        remedy: "start it from a desktop session, and run ./setup for the display's libraries".into(),
     }
 }
 
@@ -191,23 +185,16 @@ impl ApplicationHandler for Viewer<'_> {
                 self.redraw();
             }
             WindowEvent::KeyboardInput {
-                event:
-                    KeyEvent {
-                        physical_key: PhysicalKey::Code(code),
-                        state,
-                        ..
-                    },
+                event: KeyEvent { physical_key: PhysicalKey::Code(code), state, .. },
                 ..
             } => self.key(event_loop, code, state == ElementState::Pressed),
             WindowEvent::Focused(false) => {
                 self.fly.release();
                 self.dragging = false;
             }
-            WindowEvent::MouseInput {
-                button: MouseButton::Left,
-                state,
-                ..
-            } => self.dragging = state == ElementState::Pressed,
+            WindowEvent::MouseInput { button: MouseButton::Left, state, .. } => {
+                self.dragging = state == ElementState::Pressed
+            }
             WindowEvent::CursorMoved { position, .. } => self.drag(position.into()),
             WindowEvent::MouseWheel { delta, .. } => self.fly.accelerate(match delta {
                 MouseScrollDelta::LineDelta(_, lines) => lines.into(),

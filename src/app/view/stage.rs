@@ -25,30 +25,20 @@ pub(super) struct Stage {
 
 impl Stage {
     /// Opens the window and the device, and uploads the scene.
-    pub(super) fn open(
-        event_loop: &ActiveEventLoop,
-        options: &ViewOptions,
-        scene: &Scene,
-    ) -> Result<Self> {
+    pub(super) fn open(event_loop: &ActiveEventLoop, options: &ViewOptions, scene: &Scene) -> Result<Self> {
         let title = match &options.scene.scene {
             Some(path) => format!("amas: {}", path.display()),
             None => "amas".into(),
         };
         let [width, height] = scene.render.size;
-        let attributes = Window::default_attributes()
-            .with_title(title)
-            .with_inner_size(PhysicalSize::new(width, height));
-        let window = event_loop
-            .create_window(attributes)
-            .map_err(|error| Error::NoDevice {
-                cause: format!("the window cannot be opened ({error})"),
-                remedy: "check the display".into(),
-            })?;
+        let attributes =
+            Window::default_attributes().with_title(title).with_inner_size(PhysicalSize::new(width, height));
+        let window = event_loop.create_window(attributes).map_err(|error| Error::NoDevice {
+            cause: format!("the window cannot be opened ({error})"),
+            remedy: "check the display".into(),
+        })?;
         let window = Arc::new(window);
-        let asked = Options {
-            device: options.device.device.clone(),
-            validate: options.device.validate,
-        };
+        let asked = Options { device: options.device.device.clone(), validate: options.device.validate };
         let (device, swapchain) =
             Device::open_for_window(&asked, &window, event_loop.owned_display_handle())?;
         Ok(Self {
@@ -67,24 +57,14 @@ impl Stage {
     }
 
     /// Renders a picture and shows it; `None` where the window has no area.
-    pub(super) fn draw(
-        &mut self,
-        scene: &Scene,
-        camera: &Camera,
-        samples: u32,
-    ) -> Result<Option<Shown>> {
+    pub(super) fn draw(&mut self, scene: &Scene, camera: &Camera, samples: u32) -> Result<Option<Shown>> {
         if self.frame.is_none() {
             self.frame = self.make_frame(scene, camera)?;
         }
         let Some(frame) = &mut self.frame else {
             return Ok(None);
         };
-        frame.render(&FrameInputs {
-            camera,
-            samples,
-            exposure: scene.render.exposure,
-            split: false,
-        })?;
+        frame.render(&FrameInputs { camera, samples, exposure: scene.render.exposure, split: false })?;
         if !self.warned && frame.counters().dropped > 0 {
             report::warn_of_overflow(&frame.counters(), scene.render.max_lights_per_cluster);
             self.warned = true;
@@ -101,10 +81,8 @@ impl Stage {
         if !self.swapchain.resize(self.window.inner_size().into())? {
             return Ok(None);
         }
-        let settings = FrameSettings {
-            size: self.swapchain.size(),
-            ..FrameSettings::new(&scene.render, camera)
-        };
+        let settings =
+            FrameSettings { size: self.swapchain.size(), ..FrameSettings::new(&scene.render, camera) };
         Frame::new(&self.device, &self.scene, settings).map(Some)
     }
 }

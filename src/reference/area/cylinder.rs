@@ -17,12 +17,7 @@ pub(super) struct Cylinder {
 
 impl Cylinder {
     pub(super) fn new(a: DVec3, b: DVec3, radius: f64) -> Self {
-        Self {
-            start: a,
-            axis: (b - a).normalize_or_zero(),
-            length: (b - a).length(),
-            radius,
-        }
+        Self { start: a, axis: (b - a).normalize_or_zero(), length: (b - a).length(), radius }
     }
 
     /// A point of the side that is turned to `origin`; none from inside.
@@ -39,13 +34,7 @@ impl Cylinder {
         let p = self.start + xi.y * self.length * self.axis + self.radius * normal;
         let to_light = p - origin;
         let distance = to_light.length();
-        self.seen(
-            normal,
-            to_light / distance,
-            distance,
-            distance_to_axis,
-            xi.y,
-        )
+        self.seen(normal, to_light / distance, distance, distance_to_axis, xi.y)
     }
 
     pub(super) fn along(&self, origin: DVec3, direction: DVec3) -> Option<Seen> {
@@ -87,12 +76,6 @@ impl Cylinder {
         let area = 2.0 * (self.radius / distance_to_axis).acos() * self.radius * self.length;
         let around = 0.5 + normal.y.atan2(normal.x) / (2.0 * PI);
         let pdf = distance * distance / (cos * area);
-        Some(Seen {
-            wi,
-            distance,
-            front: true,
-            uv: DVec2::new(along, around),
-            pdf,
-        })
+        Some(Seen { wi, distance, front: true, uv: DVec2::new(along, around), pdf })
     }
 }

@@ -68,24 +68,18 @@ impl<'a> Emitter<'a> {
     #[must_use]
     pub fn new(light: &AreaLight, textures: &'a [Texture]) -> Self {
         let shape = match &light.shape {
-            AreaShape::Line { a, b, radius } => Shape::Cylinder(Cylinder::new(
-                a.as_dvec3(),
-                b.as_dvec3(),
-                f64::from(*radius),
-            )),
+            AreaShape::Line { a, b, radius } => {
+                Shape::Cylinder(Cylinder::new(a.as_dvec3(), b.as_dvec3(), f64::from(*radius)))
+            }
             AreaShape::Rect { center, u, v } => {
                 Shape::Planar(Planar::rect(center.as_dvec3(), u.as_dvec3(), v.as_dvec3()))
             }
-            AreaShape::Disk { center, u, v } => Shape::Planar(Planar::ellipse(
-                center.as_dvec3(),
-                u.as_dvec3(),
-                v.as_dvec3(),
-            )),
-            AreaShape::Polygon {
-                vertices,
-                holes,
-                uvs,
-            } => Shape::Planar(Planar::polygon(vertices, holes, uvs.as_deref())),
+            AreaShape::Disk { center, u, v } => {
+                Shape::Planar(Planar::ellipse(center.as_dvec3(), u.as_dvec3(), v.as_dvec3()))
+            }
+            AreaShape::Polygon { vertices, holes, uvs } => {
+                Shape::Planar(Planar::polygon(vertices, holes, uvs.as_deref()))
+            }
         };
         Self {
             shape,
@@ -100,11 +94,7 @@ impl<'a> Emitter<'a> {
     /// one, which occludes all the same).
     #[must_use]
     pub fn seen_by(&self, ray: &Ray) -> Option<(f64, DVec3)> {
-        let seen = if self.visible {
-            self.along(ray.origin, ray.direction)
-        } else {
-            None
-        };
+        let seen = if self.visible { self.along(ray.origin, ray.direction) } else { None };
         seen.map(|seen| (seen.distance, self.emitted(&seen)))
     }
 
@@ -127,9 +117,7 @@ impl<'a> Emitter<'a> {
         if !(seen.front || self.two_sided) {
             return DVec3::ZERO;
         }
-        let texel = self
-            .texture
-            .map_or(DVec3::ONE, |t| sample(t, seen.uv, Wrap::Clamp));
+        let texel = self.texture.map_or(DVec3::ONE, |t| sample(t, seen.uv, Wrap::Clamp));
         self.radiance * texel
     }
 
@@ -137,11 +125,8 @@ impl<'a> Emitter<'a> {
     fn reflected_once(&self, surface: &Surface, xi: [DVec2; 2]) -> DVec3 {
         let by_light = self.sample(surface.position, xi[0]);
         let local = surface.bsdf.sample(surface.wo, xi[1]);
-        let by_bsdf = if local.z > 0.0 {
-            self.along(surface.position, surface.frame.to_world(local))
-        } else {
-            None
-        };
+        let by_bsdf =
+            if local.z > 0.0 { self.along(surface.position, surface.frame.to_world(local)) } else { None };
         let term = |seen: Option<Seen>| seen.map_or(DVec3::ZERO, |s| self.weighed(surface, &s));
         term(by_light) + term(by_bsdf)
     }
@@ -167,15 +152,9 @@ struct Running<'a> {
 
 impl<'a> Running<'a> {
     fn new(emitter: &'a Emitter<'a>, seed: u64) -> Self {
-        let sequence =
-            |shift: usize, strategy: u64| Sequence::new(hash(&[seed, shift as u64, strategy]));
+        let sequence = |shift: usize, strategy: u64| Sequence::new(hash(&[seed, shift as u64, strategy]));
         let sequences = std::array::from_fn(|shift| [sequence(shift, 0), sequence(shift, 1)]);
-        Self {
-            emitter,
-            sequences,
-            sums: [DVec3::ZERO; SHIFTS],
-            points: 0,
-        }
+        Self { emitter, sequences, sums: [DVec3::ZERO; SHIFTS], points: 0 }
     }
 
     fn extend(&mut self, surface: &Surface, points: u32) {
@@ -199,10 +178,7 @@ pub(super) fn mean(estimates: &[DVec3]) -> Estimate {
     let value = estimates.iter().sum::<DVec3>() / n;
     let squares: DVec3 = estimates.iter().map(|e| (e - value) * (e - value)).sum();
     let variance = squares / (n * (n - 1.0).max(1.0));
-    Estimate {
-        value,
-        standard_error: variance.map(f64::sqrt),
-    }
+    Estimate { value, standard_error: variance.map(f64::sqrt) }
 }
 
 /// Light of all `emitters` reflected by `surface` towards the viewer, W·sr⁻¹·m⁻².
@@ -249,8 +225,5 @@ fn total(all: &[Running]) -> Estimate {
         }
     };
     let sum = all.iter().fold(Estimate::default(), add);
-    Estimate {
-        standard_error: sum.standard_error.map(f64::sqrt),
-        ..sum
-    }
+    Estimate { standard_error: sum.standard_error.map(f64::sqrt), ..sum }
 }

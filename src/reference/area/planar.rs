@@ -38,15 +38,7 @@ impl Planar {
         let normal = u.cross(v).normalize_or_zero();
         let (across_v, across_u) = (v.cross(normal), u.cross(normal));
         let dual = [across_v / u.dot(across_v), across_u / v.dot(across_u)];
-        Self {
-            center,
-            u,
-            v,
-            normal,
-            dual,
-            outline,
-            uv: RECT_UV,
-        }
+        Self { center, u, v, normal, dual, outline, uv: RECT_UV }
     }
 
     /// center ± u ± v.
@@ -60,11 +52,7 @@ impl Planar {
     }
 
     /// A polygon in its bounding rectangle along the first edge.
-    pub(super) fn polygon(
-        vertices: &[Vec3],
-        holes: &[Vec<Vec3>],
-        uvs: Option<&[[f32; 2]]>,
-    ) -> Self {
+    pub(super) fn polygon(vertices: &[Vec3], holes: &[Vec<Vec3>], uvs: Option<&[[f32; 2]]>) -> Self {
         let outer: Vec<_> = vertices.iter().map(|p| p.as_dvec3()).collect();
         let next = outer.iter().cycle().skip(1);
         let edge = |(a, b): (&DVec3, &DVec3)| (b - a).try_normalize();
@@ -73,27 +61,16 @@ impl Planar {
         let t_axis = normal.cross(s_axis);
         let on_axes = |p: DVec3| DVec2::new((p - outer[0]).dot(s_axis), (p - outer[0]).dot(t_axis));
         let flat = outer.iter().map(|&p| on_axes(p));
-        let (min, max) = flat.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| {
-            (min.min(p), max.max(p))
-        });
+        let (min, max) =
+            flat.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)));
         let (middle, half) = (0.5 * (min + max), 0.5 * (max - min));
         let loops = std::iter::once(vertices).chain(holes.iter().map(Vec::as_slice));
         let to_st = |p: &Vec3| (on_axes(p.as_dvec3()) - middle) / half;
-        let loops = loops
-            .map(|l| l.iter().map(to_st).collect())
-            .collect::<Vec<Vec<_>>>();
+        let loops = loops.map(|l| l.iter().map(to_st).collect()).collect::<Vec<Vec<_>>>();
         let uv = uvs.map(|uvs| affine_uv(&loops[0], uvs));
         let center = outer[0] + middle.x * s_axis + middle.y * t_axis;
-        let planar = Self::new(
-            center,
-            half.x * s_axis,
-            half.y * t_axis,
-            Outline::Loops(loops),
-        );
-        Self {
-            uv: uv.unwrap_or(RECT_UV),
-            ..planar
-        }
+        let planar = Self::new(center, half.x * s_axis, half.y * t_axis, Outline::Loops(loops));
+        Self { uv: uv.unwrap_or(RECT_UV), ..planar }
     }
 
     /// A point of the outline or, for loops, of the rectangle: then possibly none.
@@ -129,13 +106,7 @@ impl Planar {
         };
         let uv = DVec2::from_array(self.uv.map(|row| row.dot(st.extend(1.0))));
         let pdf = distance * distance / (cos.abs() * area);
-        Some(Seen {
-            wi,
-            distance,
-            front: cos < 0.0,
-            uv,
-            pdf,
-        })
+        Some(Seen { wi, distance, front: cos < 0.0, uv, pdf })
     }
 
     fn contains(&self, st: DVec2) -> bool {
@@ -164,12 +135,7 @@ fn newell_normal(vertices: &[DVec3]) -> DVec3 {
     let next = vertices.iter().cycle().skip(1);
     let first = vertices.first().copied().unwrap_or_default();
     let area = |(a, b): (&DVec3, &DVec3)| (a - first).cross(b - first);
-    vertices
-        .iter()
-        .zip(next)
-        .map(area)
-        .sum::<DVec3>()
-        .normalize_or(DVec3::Z)
+    vertices.iter().zip(next).map(area).sum::<DVec3>().normalize_or(DVec3::Z)
 }
 
 /// The affine map from (s, t) to texture coordinates that fits the vertices' own in the least squares; exact for a

@@ -20,11 +20,7 @@ impl Matte {
         let b = 0.45 * sigma2 / (sigma2 + 0.09);
         // sin θi sin θo cos(φi − φo); over max cos it is the classic sin α tan β.
         let s = wi.x * wo.x + wi.y * wo.y;
-        let shape = if s > 0.0 {
-            a + b * s / wi.z.max(wo.z)
-        } else {
-            a
-        };
+        let shape = if s > 0.0 { a + b * s / wi.z.max(wo.z) } else { a };
         self.color * FRAC_1_PI * shape
     }
 }

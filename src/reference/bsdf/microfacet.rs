@@ -17,10 +17,7 @@ impl Ggx {
     /// The same alpha in every direction.
     #[must_use]
     pub const fn isotropic(alpha: f64) -> Self {
-        Self {
-            alpha_x: alpha,
-            alpha_y: alpha,
-        }
+        Self { alpha_x: alpha, alpha_y: alpha }
     }
 
     /// D(h), normalised by ∫ D(h)(n·h) dh = 1.
@@ -57,11 +54,7 @@ impl Ggx {
     pub(super) fn sample_visible_normal(&self, wo: DVec3, xi: DVec2) -> DVec3 {
         let v = self.stretch(wo).normalize();
         let across = DVec2::new(v.x, v.y).length();
-        let t1 = if across > 1e-15 {
-            DVec3::new(-v.y, v.x, 0.0) / across
-        } else {
-            DVec3::X
-        };
+        let t1 = if across > 1e-15 { DVec3::new(-v.y, v.x, 0.0) / across } else { DVec3::X };
         let t2 = v.cross(t1);
         let (r, phi) = (xi.x.sqrt(), 2.0 * PI * xi.y);
         let p1 = r * phi.cos();

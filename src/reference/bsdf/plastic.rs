@@ -31,10 +31,6 @@ impl Plastic {
 
     pub(super) fn mixture(&self, wo: DVec3) -> Mixture {
         let specular = self.specular.max_element() * dielectric(wo.z.min(1.0), self.eta);
-        Mixture::two(
-            self.diffuse.max_element(),
-            specular,
-            Ggx::isotropic(self.alpha),
-        )
+        Mixture::two(self.diffuse.max_element(), specular, Ggx::isotropic(self.alpha))
     }
 }

@@ -54,11 +54,7 @@ impl Principled {
     /// The base colour at luminance 1, white for black.
     fn tint(&self) -> DVec3 {
         let luminance = self.base_color.dot(LUMINANCE);
-        if luminance > 0.0 {
-            self.base_color / luminance
-        } else {
-            DVec3::ONE
-        }
+        if luminance > 0.0 { self.base_color / luminance } else { DVec3::ONE }
     }
 
     /// Reflectance at normal incidence, equation (21).

@@ -23,13 +23,7 @@ pub(super) struct Mixture {
 impl Mixture {
     /// The cosine lobe alone.
     pub(super) fn diffuse() -> Self {
-        Self {
-            cosine: 1.0,
-            specular: 0.0,
-            coat: 0.0,
-            ggx: Ggx::isotropic(1.0),
-            coat_alpha: 1.0,
-        }
+        Self { cosine: 1.0, specular: 0.0, coat: 0.0, ggx: Ggx::isotropic(1.0), coat_alpha: 1.0 }
     }
 
     /// Visible normals alone, with a little of the cosine lobe for the tails.
@@ -42,13 +36,7 @@ impl Mixture {
         let sum = diffuse + specular;
         let share = if sum > 0.0 { specular / sum } else { 0.5 };
         let specular = share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
-        Self {
-            cosine: 1.0 - specular,
-            specular,
-            coat: 0.0,
-            ggx,
-            coat_alpha: 1.0,
-        }
+        Self { cosine: 1.0 - specular, specular, coat: 0.0, ggx, coat_alpha: 1.0 }
     }
 
     /// Adds the clear coat; `albedo` as in [`Mixture::two`], where the others are taken to sum to about 1.
@@ -73,8 +61,7 @@ impl Mixture {
         }
         let rest = xi.x - self.cosine;
         let h = if rest < self.specular {
-            self.ggx
-                .sample_visible_normal(wo, DVec2::new(rest / self.specular, xi.y))
+            self.ggx.sample_visible_normal(wo, DVec2::new(rest / self.specular, xi.y))
         } else {
             let x = ((rest - self.specular) / self.coat).clamp(0.0, 1.0);
             gtr1_normal(self.coat_alpha, DVec2::new(x, xi.y))

@@ -37,10 +37,6 @@ impl Substrate {
     pub(super) fn mixture(&self, wo: DVec3) -> Mixture {
         let weight = schlick_weight(wo.z);
         let specular = self.specular.max_element() * (1.0 - weight) + weight;
-        Mixture::two(
-            self.diffuse.max_element() * (1.0 - weight),
-            specular,
-            self.ggx,
-        )
+        Mixture::two(self.diffuse.max_element() * (1.0 - weight), specular, self.ggx)
     }
 }

@@ -38,16 +38,10 @@ pub(super) fn light(loader: &mut Loader, table: &Table, shape: &str) -> Result<A
     };
     Ok(AreaLight {
         shape,
-        radiance: table
-            .require("radiance", "[20.0, 20.0, 20.0]")?
-            .color()?
-            .into(),
+        radiance: table.require("radiance", "[20.0, 20.0, 20.0]")?.color()?.into(),
         two_sided: table.get_or("two_sided", false, Value::boolean)?,
         visible: table.get_or("visible", true, Value::boolean)?,
-        texture: table
-            .get("texture")
-            .map(|value| loader.texture(&value, Use::Color))
-            .transpose()?,
+        texture: table.get("texture").map(|value| loader.texture(&value, Use::Color)).transpose()?,
     })
 }
 
@@ -68,33 +62,20 @@ fn axes(table: &Table) -> Result<(Vec3, Vec3, Vec3)> {
 fn disk(table: &Table) -> Result<AreaShape> {
     let Some(normal) = table.get("normal") else {
         if let Some(radius) = table.get("radius") {
-            return Err(radius.error(
-                "stands without `normal`",
-                "add `normal`, or use `u` and `v` alone",
-            ));
+            return Err(radius.error("stands without `normal`", "add `normal`, or use `u` and `v` alone"));
         }
         let (center, u, v) = axes(table)?;
         return Ok(AreaShape::Disk { center, u, v });
     };
     if let Some(axis) = table.get("u").or_else(|| table.get("v")) {
-        return Err(axis.error(
-            "stands beside `normal`",
-            "keep `normal` and `radius`, or `u` and `v`",
-        ));
+        return Err(axis.error("stands beside `normal`", "keep `normal` and `radius`, or `u` and `v`"));
     }
-    let center = table
-        .require("center", "[0.0, 2.0, 0.0]")?
-        .vec3()?
-        .as_vec3();
+    let center = table.require("center", "[0.0, 2.0, 0.0]")?.vec3()?.as_vec3();
     let radius = table.require("radius", "0.5")?.positive()?;
     let normal = normal.direction()?;
     let u = DVec3::Y.cross(normal).try_normalize().unwrap_or(DVec3::X);
     let v = normal.cross(u);
-    Ok(AreaShape::Disk {
-        center,
-        u: (u * radius).as_vec3(),
-        v: (v * radius).as_vec3(),
-    })
+    Ok(AreaShape::Disk { center, u: (u * radius).as_vec3(), v: (v * radius).as_vec3() })
 }
 
 fn line(table: &Table) -> Result<AreaShape> {
@@ -102,10 +83,7 @@ fn line(table: &Table) -> Result<AreaShape> {
     let end = table.require("b", "[1.0, 2.0, 0.0]")?;
     let b = end.vec3()?.as_vec3();
     if a == b {
-        return Err(end.error(
-            "is the same point as `a`",
-            "give the line two different ends",
-        ));
+        return Err(end.error("is the same point as `a`", "give the line two different ends"));
     }
     let radius = table.require("radius", "0.02")?.positive()? as f32;
     Ok(AreaShape::Line { a, b, radius })
@@ -114,48 +92,34 @@ fn line(table: &Table) -> Result<AreaShape> {
 fn polygon(table: &Table) -> Result<AreaShape> {
     let value = table.require("vertices", "[[0, 2, 0], [0, 2, 1], [1, 2, 0]]")?;
     let vertices = outline_loop(&value)?;
-    let plane =
-        outline::Plane::new(&vertices).map_err(|cause| value.error(cause, outline::REMEDY))?;
+    let plane = outline::Plane::new(&vertices).map_err(|cause| value.error(cause, outline::REMEDY))?;
     let mut holes: Vec<Vec<DVec3>> = Vec::new();
     if let Some(value) = table.get("holes") {
         let items = value.items("[[[0, 2, 0], [0, 2, 1], [1, 2, 0]]]")?;
         if items.len() > MOST_HOLES {
-            return Err(value.error(
-                format!("has {} holes", items.len()),
-                format!("use at most {MOST_HOLES}"),
-            ));
+            return Err(
+                value.error(format!("has {} holes", items.len()), format!("use at most {MOST_HOLES}"))
+            );
         }
         for item in items {
             let hole = outline_loop(&item)?;
-            let apart = plane.check_hole(&vertices, &hole).and_then(|()| {
-                holes
-                    .iter()
-                    .try_for_each(|other| plane.check_apart(other, &hole))
-            });
+            let apart = plane
+                .check_hole(&vertices, &hole)
+                .and_then(|()| holes.iter().try_for_each(|other| plane.check_apart(other, &hole)));
             apart.map_err(|cause| item.error(cause, outline::REMEDY))?;
             holes.push(hole);
         }
     }
-    let uvs = table
-        .get("uvs")
-        .map(|value| uvs(&value, vertices.len()))
-        .transpose()?;
+    let uvs = table.get("uvs").map(|value| uvs(&value, vertices.len())).transpose()?;
     let round = |points: Vec<DVec3>| points.into_iter().map(|point| point.as_vec3()).collect();
-    Ok(AreaShape::Polygon {
-        vertices: round(vertices),
-        holes: holes.into_iter().map(round).collect(),
-        uvs,
-    })
+    Ok(AreaShape::Polygon { vertices: round(vertices), holes: holes.into_iter().map(round).collect(), uvs })
 }
 
 /// 3 to 64 points.
 fn outline_loop(value: &Value) -> Result<Vec<DVec3>> {
     let items = value.items("[[0, 2, 0], [0, 2, 1], [1, 2, 0]]")?;
     if !(3..=64).contains(&items.len()) {
-        return Err(value.error(
-            format!("has {} vertices", items.len()),
-            "give 3 to 64 vertices",
-        ));
+        return Err(value.error(format!("has {} vertices", items.len()), "give 3 to 64 vertices"));
     }
     items.iter().map(Value::vec3).collect()
 }

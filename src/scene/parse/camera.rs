@@ -18,16 +18,14 @@ pub(in crate::scene) fn cameras(root: &Table) -> Result<Vec<Camera>> {
     for table in root.tables("camera")? {
         let camera = camera(&table, cameras.len() + 1)?;
         if cameras.iter().any(|other| other.name == camera.name) {
-            return Err(table.error(
-                format!("two cameras are named \"{}\"", camera.name),
-                "give each its own name",
-            ));
+            return Err(
+                table.error(format!("two cameras are named \"{}\"", camera.name), "give each its own name")
+            );
         }
         cameras.push(camera);
     }
     if cameras.is_empty() {
-        let remedy =
-            "add [[camera]] with position = [0, 1, 5], target = [0, 1, 0] and vertical_fov = 45.0";
+        let remedy = "add [[camera]] with position = [0, 1, 5], target = [0, 1, 0] and vertical_fov = 45.0";
         return Err(root.error("the scene has no camera", remedy));
     }
     Ok(cameras)
@@ -45,9 +43,7 @@ fn camera(table: &Table, number: usize) -> Result<Camera> {
         "far",
         "path",
     ])?;
-    let name = table.get_or("name", format!("camera {number}"), |value| {
-        Ok(value.string()?.to_owned())
-    })?;
+    let name = table.get_or("name", format!("camera {number}"), |value| Ok(value.string()?.to_owned()))?;
     let position = table.require("position", "[0.0, 1.0, 5.0]")?.vec3()?;
     let target = table.require("target", "[0.0, 1.0, 0.0]")?;
     let up = table.get_or("up", DVec3::Y, Value::direction)?;
@@ -72,13 +68,11 @@ fn projection(table: &Table) -> Result<Projection> {
             let vertical_fov = fov.number_where(|x| x > 0.0 && x < 180.0, rule)?;
             Ok(Projection::Perspective { vertical_fov })
         }
-        (None, Some(height)) => Ok(Projection::Orthographic {
-            height: height.positive()?,
-        }),
-        (Some(_), Some(height)) => Err(height.error(
-            "stands beside `vertical_fov`",
-            "keep one of the two: perspective or orthographic",
-        )),
+        (None, Some(height)) => Ok(Projection::Orthographic { height: height.positive()? }),
+        (Some(_), Some(height)) => {
+            Err(height
+                .error("stands beside `vertical_fov`", "keep one of the two: perspective or orthographic"))
+        }
         (None, None) => Err(table.error(
             "the camera has neither `vertical_fov` nor `orthographic_height`",
             "add `vertical_fov = 45.0` (degrees) or `orthographic_height = 10.0` (metres)",
@@ -97,16 +91,12 @@ fn far(table: &Table, near: f64) -> Result<Option<f64>> {
 /// Refuses a view without direction or along `up`.
 fn check_view(at: &Value, position: DVec3, target: DVec3, up: DVec3) -> Result<()> {
     let Some(forward) = (target - position).try_normalize() else {
-        return Err(at.error(
-            "is the camera's own position",
-            "move `position` or `target`",
-        ));
+        return Err(at.error("is the camera's own position", "move `position` or `target`"));
     };
     if forward.cross(up).length() < PARALLEL {
-        return Err(at.error(
-            "lies along `up`",
-            "choose an `up` across the view, e.g. [0, 0, -1] when looking down",
-        ));
+        return Err(
+            at.error("lies along `up`", "choose an `up` across the view, e.g. [0, 0, -1] when looking down")
+        );
     }
     Ok(())
 }
@@ -130,11 +120,7 @@ fn key_frame(item: &Value, up: DVec3) -> Result<KeyFrame> {
     let position = table.require("position", "[0.0, 1.0, 4.0]")?.vec3()?;
     let target = table.require("target", "[0.0, 1.0, 0.0]")?;
     check_view(&target, position, target.vec3()?, up)?;
-    Ok(KeyFrame {
-        t,
-        position,
-        target: target.vec3()?,
-    })
+    Ok(KeyFrame { t, position, target: target.vec3()? })
 }
 
 /// Times ascend, and nowhere between the two keys does the view vanish or run along `up`.
@@ -149,10 +135,7 @@ fn check_segment(item: &Value, a: &KeyFrame, b: &KeyFrame, up: DVec3) -> Result<
     let s = (-from.dot(step) / step.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     if (from + step * s).length() < PARALLEL * from.length() {
         let cause = "passes through a view along `up` on the way from the key before";
-        return Err(item.error(
-            cause,
-            "add a key frame between the two that leads the view around",
-        ));
+        return Err(item.error(cause, "add a key frame between the two that leads the view around"));
     }
     Ok(())
 }

@@ -33,8 +33,7 @@ pub(in crate::scene) fn lights(loader: &mut Loader, root: &Table) -> Result<()> 
         }
         let count = loader.scene.point_lights.len() + loader.scene.area_lights.len();
         if count > MOST_LIGHTS {
-            let cause =
-                format!("with this one the scene has {count} lights, more than {MOST_LIGHTS}");
+            let cause = format!("with this one the scene has {count} lights, more than {MOST_LIGHTS}");
             return Err(table.error(cause, "use fewer lights"));
         }
     }
@@ -45,33 +44,22 @@ fn point(table: &Table) -> Result<PointLight> {
     table.allow(&["type", "position", "intensity", "range", "visible"])?;
     refuse_visible(table)?;
     Ok(PointLight {
-        position: table
-            .require("position", "[0.0, 2.0, 0.0]")?
-            .vec3()?
-            .as_vec3(),
-        intensity: table
-            .require("intensity", "[10.0, 10.0, 10.0]")?
-            .color()?
-            .into(),
+        position: table.require("position", "[0.0, 2.0, 0.0]")?.vec3()?.as_vec3(),
+        intensity: table.require("intensity", "[10.0, 10.0, 10.0]")?.color()?.into(),
         range: range(table)?,
     })
 }
 
 fn refuse_visible(table: &Table) -> Result<()> {
     match table.get("visible") {
-        Some(value) if value.boolean()? => Err(value.error(
-            "is true, but a point has no surface to see",
-            "use a small disk or leave the key out",
-        )),
+        Some(value) if value.boolean()? => Err(value
+            .error("is true, but a point has no surface to see", "use a small disk or leave the key out")),
         _ => Ok(()),
     }
 }
 
 fn range(table: &Table) -> Result<Option<f32>> {
-    table
-        .get("range")
-        .map(|value| Ok(value.positive()? as f32))
-        .transpose()
+    table.get("range").map(|value| Ok(value.positive()? as f32)).transpose()
 }
 
 fn many(loader: &Loader, table: &Table) -> Result<Vec<PointLight>> {
@@ -102,12 +90,7 @@ fn from_file(loader: &Loader, value: &Value) -> Result<Vec<PointLight>> {
     })?;
     let lights = points::read_csv(&shown, text.trim_start_matches('\u{feff}'))?;
     if lights.is_empty() {
-        return Err(Error::input(
-            &shown,
-            None,
-            "the file has no lights",
-            "add lines below the header",
-        ));
+        return Err(Error::input(&shown, None, "the file has no lights", "add lines below the header"));
     }
     Ok(lights)
 }
@@ -119,25 +102,19 @@ fn generator(value: &Value) -> Result<Generator> {
     let max_value = table.require("max", "[1.0, 1.0, 1.0]")?;
     let max = max_value.vec3()?;
     if min.cmpgt(max).any() {
-        return Err(max_value.error(
-            "lies below `min`",
-            "let every coordinate of `max` be at least that of `min`",
-        ));
+        return Err(
+            max_value.error("lies below `min`", "let every coordinate of `max` be at least that of `min`")
+        );
     }
     let intensity = table.require("intensity", "[1.0, 2.0]")?;
     let [low, high] = intensity.array("[1.0, 2.0]")?;
     let rule = "0 or more";
-    let (low, high) = (
-        low.number_where(|x| x >= 0.0, rule)?,
-        high.number_where(|x| x >= 0.0, rule)?,
-    );
+    let (low, high) = (low.number_where(|x| x >= 0.0, rule)?, high.number_where(|x| x >= 0.0, rule)?);
     if low > high {
         return Err(intensity.error("has lo > hi", "write [lo, hi] with lo ≤ hi"));
     }
     Ok(Generator {
-        count: table
-            .require("count", "1000")?
-            .integer(1..=MOST_LIGHTS as u32)?,
+        count: table.require("count", "1000")?.integer(1..=MOST_LIGHTS as u32)?,
         seed: table.get_or("seed", 1, |value| value.integer(0..=u32::MAX))?,
         min,
         max,

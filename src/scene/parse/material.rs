@@ -39,10 +39,9 @@ pub(in crate::scene) fn materials(loader: &mut Loader, root: &Table) -> Result<(
         let value = table.require("name", "\"floor\"")?;
         let name = value.string()?;
         if loader.material_named(name).is_some() {
-            return Err(value.error(
-                format!("\"{name}\" is the name of two materials"),
-                "give each its own name",
-            ));
+            return Err(
+                value.error(format!("\"{name}\" is the name of two materials"), "give each its own name")
+            );
         }
         let material = material(loader, &table, name)?;
         loader.add_material(material);
@@ -52,13 +51,7 @@ pub(in crate::scene) fn materials(loader: &mut Loader, root: &Table) -> Result<(
 
 fn material(loader: &mut Loader, table: &Table, name: &str) -> Result<Material> {
     let model = table.require("type", "\"matte\"")?.choice(&MODELS)?;
-    table.allow(
-        &[
-            keys(model),
-            &["name", "type", "normal_map", "alpha_mask", "two_sided"],
-        ]
-        .concat(),
-    )?;
+    table.allow(&[keys(model), &["name", "type", "normal_map", "alpha_mask", "two_sided"]].concat())?;
     let material = Material {
         name: name.to_owned(),
         model,
@@ -66,11 +59,7 @@ fn material(loader: &mut Loader, table: &Table, name: &str) -> Result<Material> 
         squared_roughness: false,
         two_sided: table.get_or("two_sided", true, Value::boolean)?,
     };
-    let mut reader = Reader {
-        loader,
-        table,
-        material,
-    };
+    let mut reader = Reader { loader, table, material };
     match model {
         Model::Matte => reader.matte()?,
         Model::Plastic => reader.plastic()?,
@@ -115,9 +104,7 @@ struct Reader<'l, 's, 't> {
 impl Reader<'_, '_, '_> {
     fn matte(&mut self) -> Result<()> {
         self.color("color", Parameter::Color, 0.5)?;
-        self.scalar("sigma", Parameter::Sigma, 0.0, |value| {
-            value.within(0.0..=90.0)
-        })
+        self.scalar("sigma", Parameter::Sigma, 0.0, |value| value.within(0.0..=90.0))
     }
 
     fn plastic(&mut self) -> Result<()> {
@@ -127,10 +114,8 @@ impl Reader<'_, '_, '_> {
         self.roughness()?;
         self.set(Parameter::Aspect, [1.0, 0.0, 0.0]);
         match self.table.get("alpha") {
-            Some(alpha) if alpha.is_array() => Err(alpha.error(
-                "is a pair, but plastic is isotropic",
-                "give one number, or use metal or substrate",
-            )),
+            Some(alpha) if alpha.is_array() => Err(alpha
+                .error("is a pair, but plastic is isotropic", "give one number, or use metal or substrate")),
             _ => Ok(()),
         }
     }
@@ -170,26 +155,18 @@ impl Reader<'_, '_, '_> {
             let missing = if eta.is_none() { "eta" } else { "k" };
             if eta.is_none() || k.is_none() {
                 let cause = format!("the metal \"{}\" lacks `{missing}`", self.material.name);
-                return Err(self
-                    .table
-                    .error(cause, "add `eta` and `k`, or `preset = \"gold\"`"));
+                return Err(self.table.error(cause, "add `eta` and `k`, or `preset = \"gold\"`"));
             }
             self.color("eta", Parameter::Color, 1.0)?;
             if let Some(value) = eta.filter(|value| !value.is_table())
                 && value.color()?.contains(&0.0)
             {
-                return Err(value.error(
-                    "has a channel that is 0",
-                    "give three numbers greater than 0",
-                ));
+                return Err(value.error("has a channel that is 0", "give three numbers greater than 0"));
             }
             return self.color("k", Parameter::Specular, 1.0);
         };
         if let Some(extra) = eta.or(k) {
-            return Err(extra.error(
-                "stands beside `preset`",
-                "keep the preset, or `eta` and `k`",
-            ));
+            return Err(extra.error("stands beside `preset`", "keep the preset, or `eta` and `k`"));
         }
         let presets: Vec<_> = CONDUCTORS.iter().map(|metal| (metal.name, metal)).collect();
         let metal = preset.choice(&presets)?;
@@ -213,10 +190,7 @@ impl Reader<'_, '_, '_> {
             return self.scalar("roughness", Parameter::Roughness, 0.5, unit);
         };
         if self.table.get("roughness").is_some() {
-            return Err(alpha.error(
-                "stands beside `roughness`",
-                "keep one of the two: alpha = roughness²",
-            ));
+            return Err(alpha.error("stands beside `roughness`", "keep one of the two: alpha = roughness²"));
         }
         if !alpha.is_array() {
             return self.scalar("alpha", Parameter::Roughness, 0.5, unit);
@@ -233,11 +207,7 @@ impl Reader<'_, '_, '_> {
 
     /// The aspect from `anisotropic`, unless `alpha = [x, y]` has set it.
     fn aspect(&mut self) -> Result<()> {
-        if self
-            .table
-            .get("alpha")
-            .is_some_and(|alpha| alpha.is_array())
-        {
+        if self.table.get("alpha").is_some_and(|alpha| alpha.is_array()) {
             return Ok(());
         }
         self.scalar("anisotropic", Parameter::Aspect, 1.0, |value| {
@@ -284,8 +254,7 @@ impl Reader<'_, '_, '_> {
         let table = value.table()?;
         table.allow(&["texture"])?;
         let file = table.require("texture", "\"wood.png\"")?;
-        self.material.parameters[parameter as usize].texture =
-            Some(self.loader.texture(&file, usage)?);
+        self.material.parameters[parameter as usize].texture = Some(self.loader.texture(&file, usage)?);
         Ok(())
     }
 

@@ -20,9 +20,7 @@ const COMMON_KEYS: [&str; 4] = ["material", "translate", "rotate", "scale"];
 
 /// Reads every `[[mesh]]` into the loader's scene.
 pub(in crate::scene) fn meshes(loader: &mut Loader, root: &Table) -> Result<()> {
-    root.tables("mesh")?
-        .iter()
-        .try_for_each(|table| mesh(loader, table))
+    root.tables("mesh")?.iter().try_for_each(|table| mesh(loader, table))
 }
 
 fn mesh(loader: &mut Loader, table: &Table) -> Result<()> {
@@ -41,20 +39,10 @@ fn from_obj(loader: &mut Loader, table: &Table, file: &Value) -> Result<()> {
     table.allow(&[&COMMON_KEYS[..], &["obj", "materials", "normals"]].concat())?;
     let path = loader.find(file)?;
     let obj = loader.obj(&path)?;
-    let binding = Binding {
-        all: material(loader, table)?,
-        by_name: remap(loader, table, &obj)?,
-    };
+    let binding = Binding { all: material(loader, table)?, by_name: remap(loader, table, &obj)? };
     let choices = [("smooth", Normals::Smooth), ("flat", Normals::Flat)];
     let normals = table.get_or("normals", Normals::Smooth, |value| value.choice(&choices))?;
-    add(
-        loader,
-        table,
-        &obj.groups,
-        normals,
-        &binding,
-        Some((&path, &obj)),
-    )
+    add(loader, table, &obj.groups, normals, &binding, Some((&path, &obj)))
 }
 
 fn from_shape(loader: &mut Loader, table: &Table, shape: &Value) -> Result<()> {
@@ -80,10 +68,7 @@ fn from_shape(loader: &mut Loader, table: &Table, shape: &Value) -> Result<()> {
         }
         other => return Err(shape.unknown(other, ["plane", "box", "sphere", "disk"].into_iter())),
     };
-    let binding = Binding {
-        all: material(loader, table)?,
-        ..Binding::default()
-    };
+    let binding = Binding { all: material(loader, table)?, ..Binding::default() };
     add(loader, table, &[group], Normals::Smooth, &binding, None)
 }
 
@@ -110,23 +95,13 @@ fn sphere_segments(value: &Value) -> Result<[u32; 2]> {
 
 /// `material = "name"`.
 fn material(loader: &Loader, table: &Table) -> Result<Option<u32>> {
-    table
-        .get("material")
-        .map(|value| named(loader, &value))
-        .transpose()
+    table.get("material").map(|value| named(loader, &value)).transpose()
 }
 
 fn named(loader: &Loader, value: &Value) -> Result<u32> {
     let name = value.string()?;
     loader.material_named(name).ok_or_else(|| {
-        value.unknown(
-            name,
-            loader
-                .scene
-                .materials
-                .iter()
-                .map(|material| material.name.as_str()),
-        )
+        value.unknown(name, loader.scene.materials.iter().map(|material| material.name.as_str()))
     })
 }
 
@@ -142,23 +117,13 @@ fn remap(
     };
     for value in value.table()?.values() {
         let index = named(loader, &value)?;
-        let mut names = obj
-            .groups
-            .iter()
-            .filter_map(|group| group.material.as_deref());
+        let mut names = obj.groups.iter().filter_map(|group| group.material.as_deref());
         if !names.clone().any(|name| name == value.key()) {
-            let best = names
-                .by_ref()
-                .map(|name| (strsim::jaro_winkler(name, value.key()), name));
+            let best = names.by_ref().map(|name| (strsim::jaro_winkler(name, value.key()), name));
             let best = best.max_by(|a, b| a.0.total_cmp(&b.0));
-            let hint = best
-                .map(|(_, name)| format!("; the nearest is \"{name}\""))
-                .unwrap_or_default();
+            let hint = best.map(|(_, name)| format!("; the nearest is \"{name}\"")).unwrap_or_default();
             let place = table.place();
-            loader.warn(format!(
-                "{place}: `materials` names \"{}\", which the OBJ lacks{hint}",
-                value.key()
-            ));
+            loader.warn(format!("{place}: `materials` names \"{}\", which the OBJ lacks{hint}", value.key()));
         }
         remap.insert(value.key().to_owned(), index);
     }
@@ -169,16 +134,11 @@ fn transform(table: &Table) -> Result<Transform> {
     let translate = table.get_or("translate", DVec3::ZERO, Value::vec3)?;
     let rotate = table.get_or("rotate", DVec3::ZERO, Value::vec3)?;
     let scale = table.get_or("scale", DVec3::ONE, |value| {
-        let scale = if value.is_array() {
-            value.vec3()?
-        } else {
-            DVec3::splat(value.number()?)
-        };
+        let scale = if value.is_array() { value.vec3()? } else { DVec3::splat(value.number()?) };
         if scale.to_array().iter().any(|x| x.abs() < 1e-18) {
-            return Err(value.error(
-                "has an axis that is 0",
-                "give a scale other than 0; negative ones mirror",
-            ));
+            return Err(
+                value.error("has an axis that is 0", "give a scale other than 0; negative ones mirror")
+            );
         }
         Ok(scale)
     })?;
@@ -203,10 +163,7 @@ fn add(
     }
     for (name, mut mesh) in meshes {
         if name.is_none() && binding.all.is_none() {
-            loader.warn(format!(
-                "{}: faces without a material are drawn grey",
-                table.place()
-            ));
+            loader.warn(format!("{}: faces without a material are drawn grey", table.place()));
         }
         mesh.material = bind::material(loader, binding, name.as_deref(), obj)?;
         check_uvs(loader, table, &mesh);
@@ -218,15 +175,9 @@ fn add(
 /// Warns where a material needs texture coordinates that the mesh does not have.
 fn check_uvs(loader: &mut Loader, table: &Table, mesh: &Mesh) {
     let material = &loader.scene.materials[mesh.material as usize];
-    let textured = material
-        .parameters
-        .iter()
-        .any(|value| value.texture.is_some());
+    let textured = material.parameters.iter().any(|value| value.texture.is_some());
     let has_uvs = mesh.vertices.iter().any(|vertex| vertex.uv != [0.0; 2]);
-    let has_tangents = mesh
-        .vertices
-        .iter()
-        .any(|vertex| vertex.tangent != [0.0; 4]);
+    let has_tangents = mesh.vertices.iter().any(|vertex| vertex.tangent != [0.0; 4]);
     let cause = if textured && !has_uvs {
         "has textures, but the mesh has no texture coordinates; one texel covers it all"
     } else if anisotropic(material) && !has_tangents {
@@ -235,17 +186,11 @@ fn check_uvs(loader: &mut Loader, table: &Table, mesh: &Mesh) {
         return;
     };
     let name = &material.name;
-    loader.warn(format!(
-        "{}: the material \"{name}\" {cause}",
-        table.place()
-    ));
+    loader.warn(format!("{}: the material \"{name}\" {cause}", table.place()));
 }
 
 fn anisotropic(material: &Material) -> bool {
     let aspect = material.value(Parameter::Aspect);
-    let model = matches!(
-        material.model,
-        Model::Metal | Model::Substrate | Model::Principled
-    );
+    let model = matches!(material.model, Model::Metal | Model::Substrate | Model::Principled);
     model && (aspect.texture.is_some() || aspect.constant[0] != 1.0)
 }

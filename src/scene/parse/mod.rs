@@ -36,20 +36,12 @@ pub(super) struct Source<'a> {
 impl<'a> Source<'a> {
     /// The scene file itself.
     pub(super) fn file(path: &'a Path, text: &'a str) -> Self {
-        Self {
-            path,
-            text,
-            set: None,
-        }
+        Self { path, text, set: None }
     }
 
     /// The value of `--set KEY=VALUE`.
     pub(super) fn set(path: &'a Path, text: &'a str, pair: &'a str) -> Self {
-        Self {
-            path,
-            text,
-            set: Some(pair),
-        }
+        Self { path, text, set: Some(pair) }
     }
 
     /// The text, without a byte order mark.
@@ -58,12 +50,7 @@ impl<'a> Source<'a> {
     }
 
     /// An error at byte `at` of the text.
-    pub(super) fn error(
-        &self,
-        at: usize,
-        cause: impl Into<String>,
-        remedy: impl Into<String>,
-    ) -> Error {
+    pub(super) fn error(&self, at: usize, cause: impl Into<String>, remedy: impl Into<String>) -> Error {
         match self.set {
             Some(pair) => Error::usage(format!("--set {pair}: {}", cause.into()), remedy),
             None => Error::input(self.path, self.line(at), cause, remedy),
@@ -89,22 +76,12 @@ impl<'a> Source<'a> {
 
     /// The whole document as a table.
     pub(super) fn root(&'a self, document: &'a Spanned<DeTable<'a>>) -> Table<'a> {
-        Table {
-            source: self,
-            entries: document.get_ref(),
-            start: document.span().start,
-            name: String::new(),
-        }
+        Table { source: self, entries: document.get_ref(), start: document.span().start, name: String::new() }
     }
 
     /// A value that stands alone, as in `--set`.
     pub(super) fn value(&'a self, key: &str, value: &'a Spanned<DeValue<'a>>) -> Value<'a> {
-        Value {
-            source: self,
-            key: key.to_owned(),
-            start: value.span().start,
-            inner: value.get_ref(),
-        }
+        Value { source: self, key: key.to_owned(), start: value.span().start, inner: value.get_ref() }
     }
 }
 
@@ -121,18 +98,11 @@ pub(super) struct Table<'a> {
 impl<'a> Table<'a> {
     /// Refuses keys that are not in `known`.
     pub(super) fn allow(&self, known: &[&str]) -> Result<()> {
-        let Some(unknown) = self
-            .entries
-            .keys()
-            .find(|key| !known.contains(&key.get_ref().as_ref()))
-        else {
+        let Some(unknown) = self.entries.keys().find(|key| !known.contains(&key.get_ref().as_ref())) else {
             return Ok(());
         };
-        let place = if self.name.is_empty() {
-            "the scene file".to_owned()
-        } else {
-            format!("`{}`", self.name)
-        };
+        let place =
+            if self.name.is_empty() { "the scene file".to_owned() } else { format!("`{}`", self.name) };
         let cause = format!("unknown key `{}` in {place}", unknown.get_ref());
         Err(self.source.error(
             unknown.span().start,
@@ -143,18 +113,13 @@ impl<'a> Table<'a> {
 
     /// The value of `key`, if it is there.
     pub(super) fn get(&self, key: &str) -> Option<Value<'a>> {
-        self.entries
-            .get(key)
-            .map(|value| self.source.value(key, value))
+        self.entries.get(key).map(|value| self.source.value(key, value))
     }
 
     /// The value of `key`, or the error that it is missing; `example` shows how to write it.
     pub(super) fn require(&self, key: &str, example: &str) -> Result<Value<'a>> {
         self.get(key).ok_or_else(|| {
-            self.error(
-                format!("`{}` lacks the key `{key}`", self.name),
-                format!("add `{key} = {example}`"),
-            )
+            self.error(format!("`{}` lacks the key `{key}`", self.name), format!("add `{key} = {example}`"))
         })
     }
 
@@ -171,9 +136,7 @@ impl<'a> Table<'a> {
     /// All values, in the order of their keys.
     pub(super) fn values(&self) -> impl Iterator<Item = Value<'a>> + use<'a> {
         let source = self.source;
-        self.entries
-            .iter()
-            .map(move |(key, value)| source.value(key.get_ref(), value))
+        self.entries.iter().map(move |(key, value)| source.value(key.get_ref(), value))
     }
 
     /// The `[[key]]` tables; none where the key is missing.
@@ -182,26 +145,17 @@ impl<'a> Table<'a> {
             return Ok(Vec::new());
         };
         let DeValue::Array(items) = value.inner else {
-            return Err(value.error(
-                "must be an array of tables",
-                format!("write [[{key}]] with double brackets"),
-            ));
+            return Err(
+                value.error("must be an array of tables", format!("write [[{key}]] with double brackets"))
+            );
         };
-        let tables = items.iter().map(|item| {
-            self.source
-                .value(key, item)
-                .named_table(&format!("[[{key}]]"))
-        });
+        let tables = items.iter().map(|item| self.source.value(key, item).named_table(&format!("[[{key}]]")));
         tables.collect()
     }
 
     /// File and line, for warnings.
     pub(super) fn place(&self) -> String {
-        format!(
-            "{}:{}",
-            self.source.path.display(),
-            self.source.line(self.start)
-        )
+        format!("{}:{}", self.source.path.display(), self.source.line(self.start))
     }
 
     /// An error about the table as a whole.
@@ -214,10 +168,7 @@ impl<'a> Table<'a> {
 pub(super) fn suggestion<'k>(unknown: &str, known: impl Iterator<Item = &'k str>) -> String {
     let known: Vec<&str> = known.collect();
     let similarity = |name: &str| strsim::jaro_winkler(unknown, name);
-    let best = known
-        .iter()
-        .copied()
-        .max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
+    let best = known.iter().copied().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
     match best {
         Some(name) if similarity(name) > 0.75 => format!("did you mean `{name}`?"),
         Some(_) if known.len() <= 24 => format!("use one of: {}", known.join(", ")),

@@ -53,9 +53,7 @@ pub(in crate::scene) fn set(
     let pair = format!("{key}={value}");
     let name = key.trim();
     let name = name.strip_prefix("render.").unwrap_or(name);
-    let known = KEYS
-        .into_iter()
-        .chain(["indirect.vpls", "indirect.bounces"]);
+    let known = KEYS.into_iter().chain(["indirect.vpls", "indirect.bounces"]);
     if !known.clone().any(|known| known == name) {
         let cause = format!("--set {pair}: unknown key `{name}` in [render]");
         return Err(Error::usage(cause, suggestion(name, known)));
@@ -69,15 +67,9 @@ pub(in crate::scene) fn set(
 /// A bare word becomes a string; everything else stays as it is.
 fn quoted(value: &str) -> String {
     let word = value.starts_with(|c: char| c.is_ascii_alphabetic())
-        && value
-            .chars()
-            .all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+        && value.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
     let literal = ["true", "false", "inf", "nan"].contains(&value);
-    if word && !literal {
-        format!("\"{value}\"")
-    } else {
-        value.to_owned()
-    }
+    if word && !literal { format!("\"{value}\"") } else { value.to_owned() }
 }
 
 /// One key; `value.key()` is one of [`KEYS`] or a dotted key below `indirect`.
@@ -102,21 +94,14 @@ fn size(value: &Value) -> Result<[u32; 2]> {
     let [width, height] = value.array("[1280, 720]")?;
     let size = [width.integer(1..=16384)?, height.integer(1..=16384)?];
     if size[0] * size[1] > LARGEST_PICTURE {
-        let cause = format!(
-            "is {} × {}, more than {LARGEST_PICTURE} pixels",
-            size[0], size[1]
-        );
+        let cause = format!("is {} × {}, more than {LARGEST_PICTURE} pixels", size[0], size[1]);
         return Err(value.error(cause, "choose a smaller picture"));
     }
     Ok(size)
 }
 
 fn tonemap(value: &Value) -> Result<Tonemap> {
-    value.choice(&[
-        ("none", Tonemap::None),
-        ("aces", Tonemap::Aces),
-        ("agx", Tonemap::Agx),
-    ])
+    value.choice(&[("none", Tonemap::None), ("aces", Tonemap::Aces), ("agx", Tonemap::Agx)])
 }
 
 fn indirect(settings: &mut RenderSettings, value: &Value) -> Result<()> {

@@ -25,16 +25,8 @@ impl<'a> Value<'a> {
     }
 
     /// An error about this value; `cause` goes on after the key's name.
-    pub(in crate::scene) fn error(
-        &self,
-        cause: impl AsRef<str>,
-        remedy: impl Into<String>,
-    ) -> Error {
-        self.source.error(
-            self.start,
-            format!("`{}` {}", self.key, cause.as_ref()),
-            remedy,
-        )
+    pub(in crate::scene) fn error(&self, cause: impl AsRef<str>, remedy: impl Into<String>) -> Error {
+        self.source.error(self.start, format!("`{}` {}", self.key, cause.as_ref()), remedy)
     }
 
     /// The error that the value has another type than `wanted`.
@@ -44,10 +36,7 @@ impl<'a> Value<'a> {
             other => format!("{} {}", article(other.type_str()), other.type_str()),
         };
         let key = self.key.split('[').next().unwrap_or_default();
-        self.error(
-            format!("must be {wanted}, but is {found}"),
-            format!("write e.g. `{key} = {example}`"),
-        )
+        self.error(format!("must be {wanted}, but is {found}"), format!("write e.g. `{key} = {example}`"))
     }
 
     /// A finite number of sane size.
@@ -59,9 +48,7 @@ impl<'a> Value<'a> {
         };
         match number {
             Some(x) if x.abs() <= LARGEST => Ok(x),
-            Some(x) if x.is_nan() => {
-                Err(self.error("is not a number (nan)", "give a finite number"))
-            }
+            Some(x) if x.is_nan() => Err(self.error("is not a number (nan)", "give a finite number")),
             _ => Err(self.error(
                 format!("is infinite or beyond ±{LARGEST:e}"),
                 format!("give a finite number within ±{LARGEST:e}"),
@@ -77,19 +64,12 @@ impl<'a> Value<'a> {
     }
 
     /// A number that passes `test`; `rule` completes «must be …».
-    pub(in crate::scene) fn number_where(
-        &self,
-        test: impl Fn(f64) -> bool,
-        rule: &str,
-    ) -> Result<f64> {
+    pub(in crate::scene) fn number_where(&self, test: impl Fn(f64) -> bool, rule: &str) -> Result<f64> {
         let x = self.number()?;
         if test(x) {
             return Ok(x);
         }
-        Err(self.error(
-            format!("must be {rule}, but is {x}"),
-            format!("give a number that is {rule}"),
-        ))
+        Err(self.error(format!("must be {rule}, but is {x}"), format!("give a number that is {rule}")))
     }
 
     /// A number > 0, also as float32.
@@ -111,31 +91,20 @@ impl<'a> Value<'a> {
         let number = self.any_integer().and_then(|x| u32::try_from(x).ok());
         number.filter(|x| range.contains(x)).ok_or_else(|| {
             let rule = format!("from {} to {}", range.start(), range.end());
-            self.error(
-                format!("must be {rule}, but is {integer}"),
-                format!("give a whole number {rule}"),
-            )
+            self.error(format!("must be {rule}, but is {integer}"), format!("give a whole number {rule}"))
         })
     }
 
     /// `true` or `false`.
     pub(in crate::scene) fn boolean(&self) -> Result<bool> {
-        self.inner
-            .as_bool()
-            .ok_or_else(|| self.wrong_type("true or false", "true"))
+        self.inner.as_bool().ok_or_else(|| self.wrong_type("true or false", "true"))
     }
 
     /// A string that is not empty.
     pub(in crate::scene) fn string(&self) -> Result<&'a str> {
-        let string = self
-            .inner
-            .as_str()
-            .ok_or_else(|| self.wrong_type("a string", "\"text\""))?;
+        let string = self.inner.as_str().ok_or_else(|| self.wrong_type("a string", "\"text\""))?;
         if string.trim().is_empty() {
-            return Err(self.error(
-                "is empty",
-                format!("give `{}` a text or leave the key out", self.key),
-            ));
+            return Err(self.error("is empty", format!("give `{}` a text or leave the key out", self.key)));
         }
         Ok(string)
     }
@@ -150,23 +119,13 @@ impl<'a> Value<'a> {
     }
 
     /// The error that `word` is none of `known`.
-    pub(in crate::scene) fn unknown<'k>(
-        &self,
-        word: &str,
-        known: impl Iterator<Item = &'k str>,
-    ) -> Error {
-        self.error(
-            format!("is \"{word}\", which is unknown"),
-            suggestion(word, known),
-        )
+    pub(in crate::scene) fn unknown<'k>(&self, word: &str, known: impl Iterator<Item = &'k str>) -> Error {
+        self.error(format!("is \"{word}\", which is unknown"), suggestion(word, known))
     }
 
     /// The items of an array.
     pub(in crate::scene) fn items(&self, example: &str) -> Result<Vec<Value<'a>>> {
-        let items = self
-            .inner
-            .as_array()
-            .ok_or_else(|| self.wrong_type("an array", example))?;
+        let items = self.inner.as_array().ok_or_else(|| self.wrong_type("an array", example))?;
         let item = |(index, item)| self.source.value(&format!("{}[{index}]", self.key), item);
         Ok(items.iter().enumerate().map(item).collect())
     }
@@ -174,10 +133,7 @@ impl<'a> Value<'a> {
     /// Exactly `N` items.
     pub(in crate::scene) fn array<const N: usize>(&self, example: &str) -> Result<[Value<'a>; N]> {
         let wrong = || self.wrong_type(&format!("an array of {N} numbers"), example);
-        self.items(example)
-            .ok()
-            .and_then(|items| items.try_into().ok())
-            .ok_or_else(wrong)
+        self.items(example).ok().and_then(|items| items.try_into().ok()).ok_or_else(wrong)
     }
 
     /// A table, e.g. `{ vpls = 0 }`.
@@ -187,16 +143,8 @@ impl<'a> Value<'a> {
 
     /// A table that errors call `name`.
     pub(super) fn named_table(&self, name: &str) -> Result<Table<'a>> {
-        let entries = self
-            .inner
-            .as_table()
-            .ok_or_else(|| self.wrong_type("a table", "{ … }"))?;
-        Ok(Table {
-            source: self.source,
-            entries,
-            start: self.start,
-            name: name.to_owned(),
-        })
+        let entries = self.inner.as_table().ok_or_else(|| self.wrong_type("a table", "{ … }"))?;
+        Ok(Table { source: self.source, entries, start: self.start, name: name.to_owned() })
     }
 
     /// Whether the value is an array.
@@ -235,9 +183,5 @@ impl<'a> Value<'a> {
 }
 
 fn article(noun: &str) -> &'static str {
-    if noun.starts_with(['a', 'i']) {
-        "an"
-    } else {
-        "a"
-    }
+    if noun.starts_with(['a', 'i']) { "an" } else { "a" }
 }
