@@ -2,73 +2,27 @@
 //!
 //! prepass → cluster → forward (direct → indirect → present)
 
+mod results;
+mod settings;
 mod timing;
 
+pub use settings::{FrameInputs, FrameSettings};
 pub use timing::{PassTime, Timings};
 
 use crate::camera_constants::camera_constants;
 use crate::draws::{VisibleDraw, visible};
 use crate::error::Result;
-use crate::gpu::{Buffer, BufferUse, Commands, DescriptorSets, Device, Image, Timestamps, Use};
+use crate::gpu::{Buffer, BufferUse, Commands, DescriptorSets, Device, Timestamps, Use};
 use crate::gpu_scene::GpuScene;
-use crate::image::HdrImage;
-use crate::passes::aov::{Aov, Quantity};
 use crate::passes::cluster::{Capacity, ClusterPass, ClusterTargets};
 use crate::passes::forward::{Forward, Sample, Work};
-use crate::passes::pairs::{PairCount, PairPass};
 use crate::passes::prepass::Prepass;
 use crate::passes::{PassInputs, View};
-use crate::scene::settings::Tonemap;
-use crate::scene::{Camera, Projection, RenderSettings};
+use crate::scene::Camera;
 use crate::shared::{self, Counters, FrameConstants};
 use crate::targets::Targets;
 use std::sync::Arc;
 use timing::Stopwatch;
-
-/// What a frame is made for; changing it means a new [`Frame`].
-#[derive(Clone, Copy, Debug)]
-pub struct FrameSettings {
-    /// Pixels across and down.
-    pub size: [u32; 2],
-    /// Tone curve.
-    pub tonemap: Tonemap,
-    /// Radiance where no surface is.
-    pub background: [f32; 3],
-    /// Longest light list.
-    pub max_lights_per_cluster: u32,
-    /// Perspective camera; orthographic otherwise.
-    pub perspective: bool,
-    /// Every light on every pixel, without clusters: what the clustered picture is measured against.
-    pub brute_force: bool,
-}
-
-impl FrameSettings {
-    /// The settings of a scene under one of its cameras.
-    #[must_use]
-    pub fn new(render: &RenderSettings, camera: &Camera) -> Self {
-        Self {
-            size: render.size,
-            tonemap: render.tonemap,
-            background: render.background,
-            max_lights_per_cluster: render.max_lights_per_cluster,
-            perspective: matches!(camera.projection, Projection::Perspective { .. }),
-            brute_force: false,
-        }
-    }
-}
-
-/// What changes from picture to picture.
-#[derive(Clone, Debug)]
-pub struct FrameInputs<'a> {
-    /// Camera, of the kind that the frame was made for.
-    pub camera: &'a Camera,
-    /// Samples a pixel; 1 goes through its centre.
-    pub samples: u32,
-    /// Exposure in EV, for the display-referred picture.
-    pub exposure: f32,
-    /// Submit pass by pass, so that each pass's CPU time is known; slower.
-    pub split: bool,
-}
 
 /// A scene's frame on a device.
 pub struct Frame {
@@ -237,81 +191,6 @@ impl Frame {
         set.image(shared::frame::FRAME_CLUSTER_IDS, &self.targets.cluster_ids, Use::FragmentRead);
         set.image(shared::frame::FRAME_HDR, &self.targets.hdr, Use::InputRead);
         self.lists.bind(set);
-    }
-
-    /// The scene-linear picture.
-    ///
-    /// # Errors
-    /// [`crate::Error::Vulkan`] from the driver.
-    pub fn hdr(&self) -> Result<HdrImage> {
-        let texels: Vec<[f32; 4]> = self.targets.hdr.fetch(Use::TransferRead, Use::TransferRead)?;
-        let samples = self.samples.max(1) as f32;
-        Ok(self.image(texels.iter().map(|&[r, g, b, _]| [r / samples, g / samples, b / samples]).collect()))
-    }
-
-    /// The display-referred picture, sRGB-encoded.
-    ///
-    /// # Errors
-    /// [`crate::Error::Vulkan`] from the driver.
-    pub fn ldr(&self) -> Result<Vec<[u8; 4]>> {
-        self.targets.ldr.fetch(Use::TransferRead, Use::TransferRead)
-    }
-
-    /// The display-referred picture on the device, in use [`Use::TransferRead`].
-    #[must_use]
-    pub fn picture(&self) -> &Image {
-        &self.targets.ldr
-    }
-
-    /// One quantity of the surface last rendered, without jitter if the picture had one sample.
-    ///
-    /// # Errors
-    /// [`crate::Error::Vulkan`] from the driver.
-    pub fn aov(&self, quantity: Quantity) -> Result<Vec<[f32; 4]>> {
-        let inputs =
-            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
-        let aov = Aov::new(&inputs, &self.targets, quantity)?;
-        self.device.run("aov", |cmd| {
-            aov.record(cmd, &self.view());
-            Ok(())
-        })?;
-        aov.fetch()
-    }
-
-    /// Pairs of pixel and light in the picture last rendered.
-    ///
-    /// # Errors
-    /// [`crate::Error::Vulkan`] from the driver.
-    pub fn pairs(&self) -> Result<PairCount> {
-        PairPass::new(&self.device, &self.scene, tiles(self.settings.size))?.count(
-            &self.device,
-            &self.scene,
-            self.set.get(0),
-            tiles_of(self.settings.size),
-        )
-    }
-
-    /// What the cluster pass counted for the last sample; zero where the scene has no lights with a range.
-    #[must_use]
-    pub fn counters(&self) -> Counters {
-        if self.cluster.is_some() { self.counters } else { Counters::default() }
-    }
-
-    /// The cluster pass's results, for tests of the lists.
-    #[must_use]
-    pub fn cluster_targets(&self) -> (&Targets, &ClusterTargets) {
-        (&self.targets, &self.lists)
-    }
-
-    /// Tiles across, tiles down, depth slices of the picture last rendered.
-    #[must_use]
-    pub fn grid(&self) -> [u32; 3] {
-        let [x, y] = tiles_of(self.settings.size);
-        [x, y, self.slices]
-    }
-
-    fn image(&self, pixels: Vec<[f32; 3]>) -> HdrImage {
-        HdrImage { width: self.settings.size[0], height: self.settings.size[1], pixels }
     }
 }
 

@@ -1,0 +1,89 @@
+//! What can be read from a frame once it is rendered.
+
+use super::{Frame, tiles, tiles_of};
+use crate::error::Result;
+use crate::gpu::{Image, Use};
+use crate::image::HdrImage;
+use crate::passes::PassInputs;
+use crate::passes::aov::{Aov, Quantity};
+use crate::passes::cluster::ClusterTargets;
+use crate::passes::pairs::{PairCount, PairPass};
+use crate::shared::Counters;
+use crate::targets::Targets;
+
+impl Frame {
+    /// The scene-linear picture.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn hdr(&self) -> Result<HdrImage> {
+        let texels: Vec<[f32; 4]> = self.targets.hdr.fetch(Use::TransferRead, Use::TransferRead)?;
+        let samples = self.samples.max(1) as f32;
+        Ok(self.image(texels.iter().map(|&[r, g, b, _]| [r / samples, g / samples, b / samples]).collect()))
+    }
+
+    /// The display-referred picture, sRGB-encoded.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn ldr(&self) -> Result<Vec<[u8; 4]>> {
+        self.targets.ldr.fetch(Use::TransferRead, Use::TransferRead)
+    }
+
+    /// The display-referred picture on the device, in use [`Use::TransferRead`].
+    #[must_use]
+    pub fn picture(&self) -> &Image {
+        &self.targets.ldr
+    }
+
+    /// One quantity of the surface last rendered, without jitter if the picture had one sample.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn aov(&self, quantity: Quantity) -> Result<Vec<[f32; 4]>> {
+        let inputs =
+            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
+        let aov = Aov::new(&inputs, &self.targets, quantity)?;
+        self.device.run("aov", |cmd| {
+            aov.record(cmd, &self.view());
+            Ok(())
+        })?;
+        aov.fetch()
+    }
+
+    /// Pairs of pixel and light in the picture last rendered.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn pairs(&self) -> Result<PairCount> {
+        PairPass::new(&self.device, &self.scene, tiles(self.settings.size))?.count(
+            &self.device,
+            &self.scene,
+            self.set.get(0),
+            tiles_of(self.settings.size),
+        )
+    }
+
+    /// What the cluster pass counted for the last sample; zero where the scene has no lights with a range.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        if self.cluster.is_some() { self.counters } else { Counters::default() }
+    }
+
+    /// The cluster pass's results, for tests of the lists.
+    #[must_use]
+    pub fn cluster_targets(&self) -> (&Targets, &ClusterTargets) {
+        (&self.targets, &self.lists)
+    }
+
+    /// Tiles across, tiles down, depth slices of the picture last rendered.
+    #[must_use]
+    pub fn grid(&self) -> [u32; 3] {
+        let [x, y] = tiles_of(self.settings.size);
+        [x, y, self.slices]
+    }
+
+    fn image(&self, pixels: Vec<[f32; 3]>) -> HdrImage {
+        HdrImage { width: self.settings.size[0], height: self.settings.size[1], pixels }
+    }
+}

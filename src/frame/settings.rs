@@ -1,0 +1,49 @@
+//! What a frame is made for, and what changes from picture to picture.
+
+use crate::scene::settings::Tonemap;
+use crate::scene::{Camera, Projection, RenderSettings};
+
+/// What a frame is made for; changing it means a new [`Frame`].
+#[derive(Clone, Copy, Debug)]
+pub struct FrameSettings {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Tone curve.
+    pub tonemap: Tonemap,
+    /// Radiance where no surface is.
+    pub background: [f32; 3],
+    /// Longest light list.
+    pub max_lights_per_cluster: u32,
+    /// Perspective camera; orthographic otherwise.
+    pub perspective: bool,
+    /// Every light on every pixel, without clusters: what the clustered picture is measured against.
+    pub brute_force: bool,
+}
+
+impl FrameSettings {
+    /// The settings of a scene under one of its cameras.
+    #[must_use]
+    pub fn new(render: &RenderSettings, camera: &Camera) -> Self {
+        Self {
+            size: render.size,
+            tonemap: render.tonemap,
+            background: render.background,
+            max_lights_per_cluster: render.max_lights_per_cluster,
+            perspective: matches!(camera.projection, Projection::Perspective { .. }),
+            brute_force: false,
+        }
+    }
+}
+
+/// What changes from picture to picture.
+#[derive(Clone, Debug)]
+pub struct FrameInputs<'a> {
+    /// Camera, of the kind that the frame was made for.
+    pub camera: &'a Camera,
+    /// Samples a pixel; 1 goes through its centre.
+    pub samples: u32,
+    /// Exposure in EV, for the display-referred picture.
+    pub exposure: f32,
+    /// Submit pass by pass, so that each pass's CPU time is known; slower.
+    pub split: bool,
+}
