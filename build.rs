@@ -1,6 +1,6 @@
 //! Compiles every shader in `glsl/` to SPIR-V and writes two files into `OUT_DIR`:
 //! `shared.glsl`, the declarations of `src/shared.rs` as GLSL, and `shaders.rs`, one constant per shader,
-//! so that a missing or renamed shader is a compile error.
+//! so that a missing or renamed shader is a compile error. Also names the commit.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -24,7 +24,22 @@ fn main() {
     }
 }
 
+/// Tells the benchmark which commit it measures; nothing outside a checkout.
+fn name_commit() {
+    // Every commit appends to this log. A file that is not there would rerun this script at every build.
+    let log = Path::new(".git/logs/HEAD");
+    if log.exists() {
+        println!("cargo:rerun-if-changed={}", log.display());
+    }
+    let output = std::process::Command::new("git").args(["rev-parse", "--short=12", "HEAD"]).output();
+    let hash = output.ok().filter(|output| output.status.success());
+    if let Some(hash) = hash.and_then(|output| String::from_utf8(output.stdout).ok()) {
+        println!("cargo:rustc-env=AMAS_COMMIT={}", hash.trim());
+    }
+}
+
 fn compile_all() -> Result<(), String> {
+    name_commit();
     let out = PathBuf::from(std::env::var("OUT_DIR").map_err(|error| error.to_string())?);
     println!("cargo:rerun-if-changed=src/shared.rs");
     println!("cargo:rerun-if-changed=src/shared");

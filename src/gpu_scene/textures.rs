@@ -95,25 +95,45 @@ fn linear(texels: &Texels) -> Vec<[f32; 4]> {
     }
 }
 
-/// Each level is the box filter of the one above; the last row or column of an odd level counts twice.
+/// Each level is the area average of the one above: 2 × 2 texels, or up to 3 weighted ones along an odd side.
 fn mip_chain(top: Vec<[f32; 4]>, size: [u32; 2], mips: u32) -> Vec<Vec<[f32; 4]>> {
     let mut levels = vec![top];
     let mut from = size.map(|side| side as usize);
     for _ in 1..mips {
         let to = from.map(|side| (side / 2).max(1));
         let above = &levels[levels.len() - 1];
-        let at = |x: usize, y: usize| above[y.min(from[1] - 1) * from[0] + x.min(from[0] - 1)];
-        let level = (0..to[0] * to[1])
-            .map(|i| {
-                let (x, y) = (2 * (i % to[0]), 2 * (i / to[0]));
-                let four = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
-                std::array::from_fn(|c| four.iter().map(|texel| texel[c]).sum::<f32>() / 4.0)
+        let columns: Vec<_> = (0..to[0]).map(|x| footprint(x, from[0], to[0])).collect();
+        let level = (0..to[1])
+            .flat_map(|y| {
+                let rows = footprint(y, from[1], to[1]);
+                columns.iter().map(move |columns| average(above, from[0], columns, &rows))
             })
             .collect();
         levels.push(level);
         from = to;
     }
     levels
+}
+
+/// Texels of a side of `from` that texel `index` of a side of `to` covers, with weights that sum to 1.
+fn footprint(index: usize, from: usize, to: usize) -> Vec<(usize, f32)> {
+    let scale = from as f32 / to as f32;
+    let (begin, end) = (index as f32 * scale, (index + 1) as f32 * scale);
+    (begin as usize..from)
+        .map(|texel| (texel, (end.min((texel + 1) as f32) - begin.max(texel as f32)) / scale))
+        .take_while(|&(_, weight)| weight > 1e-5)
+        .collect()
+}
+
+fn average(texels: &[[f32; 4]], width: usize, columns: &[(usize, f32)], rows: &[(usize, f32)]) -> [f32; 4] {
+    let mut sum = [0.0; 4];
+    for &(y, wy) in rows {
+        for &(x, wx) in columns {
+            let texel = texels[y * width + x];
+            (0..4).for_each(|c| sum[c] += wx * wy * texel[c]);
+        }
+    }
+    sum
 }
 
 fn decode(v: f32) -> f32 {
@@ -143,8 +163,11 @@ mod tests {
 
     #[test]
     fn odd_and_thin_images_shrink_to_one_texel() {
-        let levels = mip_chain(vec![[0.25; 4]; 15], [5, 3], 3);
+        let top: Vec<[f32; 4]> = (0..15).map(|i| [(i % 5) as f32; 4]).collect();
+        let levels = mip_chain(top, [5, 3], 3);
         assert_eq!(levels.iter().map(Vec::len).collect::<Vec<_>>(), [15, 2, 1]);
-        assert_eq!(levels[2][0], [0.25; 4]);
+        // Columns 0, 1 and half of 2, over two and a half; the whole keeps the mean.
+        assert!((levels[1][0][0] - 0.8).abs() < 1e-6);
+        assert!((levels[2][0][0] - 2.0).abs() < 1e-6);
     }
 }
