@@ -18,7 +18,6 @@ use crate::passes::cluster::{Capacity, ClusterPass, ClusterTargets};
 use crate::passes::forward::{Forward, Sample, Work};
 use crate::passes::prepass::Prepass;
 use crate::passes::{PassInputs, View};
-use crate::scene::Camera;
 use crate::shared::{self, Counters, FrameConstants};
 use crate::targets::Targets;
 use std::sync::Arc;
@@ -97,7 +96,7 @@ impl Frame {
     fn accumulate(&mut self, inputs: &FrameInputs<'_>) -> Result<Option<Timings>> {
         let mut watch = Stopwatch::start(&self.pass_names);
         for index in 0..inputs.samples {
-            self.update_constants(inputs.camera, jitter(index, inputs.samples))?;
+            self.update_constants(inputs, index)?;
             let sample = Sample { first: index == 0, scale: inputs.exposure.exp2() / (index + 1) as f32 };
             self.submit(sample, inputs.split, &mut watch)?;
             watch.add_gpu(self.timestamps.intervals()?);
@@ -165,8 +164,11 @@ impl Frame {
         cmd.memory_barrier(Use::TransferWrite, Use::HostRead);
     }
 
-    fn update_constants(&mut self, camera: &Camera, jitter: [f64; 2]) -> Result<()> {
-        let mut constants = camera_constants(camera, self.settings.size, jitter, self.scene.bounds);
+    fn update_constants(&mut self, inputs: &FrameInputs<'_>, sample: u32) -> Result<()> {
+        let jitter = jitter(sample, inputs.samples);
+        let mut constants = camera_constants(inputs.camera, self.settings.size, jitter, self.scene.bounds);
+        // N samples share a pixel, so each filters its textures over an N-th of it.
+        constants.texture_bias = -0.5 * (inputs.samples as f32).log2();
         constants.light_count = self.scene.lights.lights.len() as u32;
         constants.direct_begin = if self.settings.brute_force { 0 } else { self.scene.lights.ranged as u32 };
         constants.node_count = self.scene.lights.nodes.len() as u32;

@@ -191,6 +191,8 @@ shared! {
             background: vec3;
             /// Nodes of the light tree.
             node_count: uint;
+            /// Added to the level of detail of material textures.
+            texture_bias: float;
         }
         /// Push constants of a draw.
         DrawConstants {

@@ -3,6 +3,8 @@
 #ifndef BIND_TEXTURES_GLSL
 #define BIND_TEXTURES_GLSL
 
+#include "bind/frame.glsl"
+
 layout(set = SET_material, binding = MATERIAL_SLOTS) uniform sampler2D material_textures[MATERIAL_TEXTURES];
 
 // Texture slot of each parameter, by the order of `Parameter`.
@@ -26,14 +28,14 @@ layout(constant_id = 30) const uint SLOT_MASK = NO_TEXTURE;
 // Texture coordinates begin at the image's lower left, texels at its top.
 vec4 sample_slot(uint slot, vec2 uv) {
     uv.y = 1.0 - uv.y;
-    if (slot == 0u) return texture(material_textures[0], uv);
-    if (slot == 1u) return texture(material_textures[1], uv);
-    if (slot == 2u) return texture(material_textures[2], uv);
-    if (slot == 3u) return texture(material_textures[3], uv);
-    if (slot == 4u) return texture(material_textures[4], uv);
-    if (slot == 5u) return texture(material_textures[5], uv);
-    if (slot == 6u) return texture(material_textures[6], uv);
-    return texture(material_textures[7], uv);
+    if (slot == 0u) return texture(material_textures[0], uv, frame.texture_bias);
+    if (slot == 1u) return texture(material_textures[1], uv, frame.texture_bias);
+    if (slot == 2u) return texture(material_textures[2], uv, frame.texture_bias);
+    if (slot == 3u) return texture(material_textures[3], uv, frame.texture_bias);
+    if (slot == 4u) return texture(material_textures[4], uv, frame.texture_bias);
+    if (slot == 5u) return texture(material_textures[5], uv, frame.texture_bias);
+    if (slot == 6u) return texture(material_textures[6], uv, frame.texture_bias);
+    return texture(material_textures[7], uv, frame.texture_bias);
 }
 
 #endif
