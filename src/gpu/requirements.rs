@@ -67,13 +67,7 @@ const LIMITS: &[Limit] = &[
         |l| l.max_per_stage_descriptor_sampled_images.into(),
         "8 material textures beside the light lists",
     ),
-    (
-        "maxPerStageDescriptorStorageBuffers",
-        5,
-        |l| l.max_per_stage_descriptor_storage_buffers.into(),
-        "tiles, clusters, counters, pairs and light tree",
-    ),
-    ("maxStorageBufferRange", 1 << 27, |l| l.max_storage_buffer_range.into(), "cluster and material records"),
+    ("maxStorageBufferRange", 1 << 27, |l| l.max_storage_buffer_range.into(), "clusters of a large picture"),
 ];
 
 type FormatRow = (&'static str, vk::Format, vk::FormatFeatureFlags, &'static str);

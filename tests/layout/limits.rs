@@ -23,8 +23,8 @@ const PUSH_CONSTANT_BYTES: u32 = 128;
 const SHARED_MEMORY_BYTES: u32 = 16_384;
 /// `maxComputeWorkGroupInvocations` that amas asks for.
 const WORKGROUP_INVOCATIONS: u32 = 256;
-/// `maxPerStageDescriptorStorageBuffers` that amas asks for.
-const STORAGE_BUFFERS: u32 = 5;
+/// `maxPerStageDescriptorStorageBuffers` of every device.
+const STORAGE_BUFFERS: u32 = 4;
 /// `maxPerStageDescriptorSampledImages` of every device; combined ones count.
 const SAMPLED_IMAGES: u32 = 16;
 /// `maxPerStageDescriptorStorageImages` of every device.
