@@ -11,13 +11,16 @@
 //! where the scene has lights with a range.
 
 use super::{PassInputs, View};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gpu::{
     Buffer, BufferUse, Commands, ComputePipeline, DescriptorSet, Device, Format, Image, ImageDescription,
     Specialization, Use, shaders,
 };
 use crate::shared::{self, Cluster, Counters, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, Tile};
 use std::sync::Arc;
+
+/// Array layers that every device has: 2 GiB of lists.
+const MAX_LAYERS: u32 = 256;
 
 /// Room for clusters and list texels; grows when a frame needs more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,6 +75,13 @@ impl ClusterTargets {
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, tiles: u32, capacity: Capacity) -> Result<Self> {
         let layers = capacity.texels >> (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2);
+        if layers > MAX_LAYERS {
+            return Err(Error::Vulkan {
+                call: "light lists".into(),
+                result: format!("they need {layers} array layers, and devices have {MAX_LAYERS}"),
+                remedy: "lower render.max_lights_per_cluster, or render a smaller picture".into(),
+            });
+        }
         let lists = Image::new(
             device,
             &ImageDescription {
