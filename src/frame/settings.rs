@@ -3,7 +3,7 @@
 use crate::scene::settings::Tonemap;
 use crate::scene::{Camera, Projection, RenderSettings};
 
-/// What a frame is made for; changing it means a new [`Frame`].
+/// What a frame is made for; changing it means a new [`Frame`](super::Frame).
 #[derive(Clone, Copy, Debug)]
 pub struct FrameSettings {
     /// Pixels across and down.
