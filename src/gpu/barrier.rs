@@ -31,7 +31,7 @@ pub enum Use {
     DepthRead,
     /// Colour attachment, blended.
     ColorWrite,
-    /// Input attachment of a fragment shader.
+    /// Colour attachment that a fragment shader reads as its input.
     InputRead,
     /// Shown in a window.
     Present,
@@ -82,7 +82,12 @@ impl Use {
                 A::from_raw(A::COLOR_ATTACHMENT_READ.as_raw() | A::COLOR_ATTACHMENT_WRITE.as_raw()),
                 L::COLOR_ATTACHMENT_OPTIMAL,
             ),
-            Self::InputRead => (S::FRAGMENT_SHADER, A::INPUT_ATTACHMENT_READ, L::SHADER_READ_ONLY_OPTIMAL),
+            // What is only read is stored again when the pass ends, and that counts as a write.
+            Self::InputRead => (
+                S::from_raw(S::FRAGMENT_SHADER.as_raw() | S::COLOR_ATTACHMENT_OUTPUT.as_raw()),
+                A::from_raw(A::INPUT_ATTACHMENT_READ.as_raw() | A::COLOR_ATTACHMENT_WRITE.as_raw()),
+                L::SHADER_READ_ONLY_OPTIMAL,
+            ),
             // Presenting synchronises by itself.
             Self::Present => (S::BOTTOM_OF_PIPE, A::empty(), L::PRESENT_SRC_KHR),
         }
