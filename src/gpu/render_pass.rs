@@ -28,6 +28,12 @@ pub struct Subpass<'a> {
     pub depth: Option<(u32, Use)>,
 }
 
+impl Subpass<'_> {
+    fn attachments(&self) -> impl Iterator<Item = u32> {
+        self.color.iter().chain(self.input).copied().chain(self.depth.map(|(index, _)| index))
+    }
+}
+
 /// A render pass.
 pub struct RenderPass {
     pub(super) raw: vk::RenderPass,
@@ -50,7 +56,8 @@ impl RenderPass {
         outside: &[Outside],
     ) -> Result<Self> {
         let descriptions: Vec<_> = attachments.iter().map(describe).collect();
-        let references: Vec<_> = subpasses.iter().map(References::new).collect();
+        let references: Vec<_> =
+            (0..subpasses.len()).map(|i| References::new(&subpasses[i], &subpasses[..i])).collect();
         let subpass_infos: Vec<_> = references.iter().map(References::describe).collect();
         let last = subpasses.len() as u32 - 1;
         let mut dependencies: Vec<_> = (0_u32..)
@@ -120,15 +127,22 @@ struct References {
     color: Vec<vk::AttachmentReference>,
     input: Vec<vk::AttachmentReference>,
     depth: Option<vk::AttachmentReference>,
+    // Used earlier but not here: without a word their contents would be lost from here on.
+    preserved: Vec<u32>,
 }
 
 impl References {
-    fn new(subpass: &Subpass<'_>) -> Self {
+    fn new(subpass: &Subpass<'_>, earlier: &[Subpass<'_>]) -> Self {
+        let mut preserved: Vec<u32> = earlier.iter().flat_map(Subpass::attachments).collect();
+        preserved.retain(|&attachment| subpass.attachments().all(|used| used != attachment));
+        preserved.sort_unstable();
+        preserved.dedup();
         let all = |indices: &[u32], used: Use| indices.iter().map(|&i| reference(i, used)).collect();
         Self {
             color: all(subpass.color, Use::ColorWrite),
             input: all(subpass.input, Use::InputRead),
             depth: subpass.depth.map(|(index, used)| reference(index, used)),
+            preserved,
         }
     }
 
@@ -136,7 +150,8 @@ impl References {
         let info = vk::SubpassDescription::default()
             .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
             .color_attachments(&self.color)
-            .input_attachments(&self.input);
+            .input_attachments(&self.input)
+            .preserve_attachments(&self.preserved);
         match &self.depth {
             Some(depth) => info.depth_stencil_attachment(depth),
             None => info,
