@@ -38,6 +38,9 @@ void main() {
             uint word = slice >> 5;
             rank = uint(bitCount(slices[word] & ((1u << (slice & 31u)) - 1u)));
             for (uint lower = 0u; lower < word; ++lower) rank += uint(bitCount(slices[lower]));
+            // Step 1 took the same logarithm in another pipeline, where it may have rounded to another slice: the sample
+            // then joins a neighbour, whose bounds follow it, but never the next tile's first cluster.
+            rank = min(rank, tiles[tile].count - 1u);
             samples[lane] = vec4(world_position(frame, vec2(pixel) + 0.5, z), z);
             id = tiles[tile].first + rank;
         }

@@ -13,6 +13,7 @@ layout(set = SET_frame, binding = FRAME_COUNTERS, std430) readonly buffer Counte
 layout(set = SET_frame, binding = FRAME_LISTS_OUT, rgba32ui) writeonly uniform uimage2DArray light_lists;
 
 uint written = 0u;
+uint kept = 0u;
 uint texel = 0u;
 uvec4 four = uvec4(0u);
 
@@ -25,8 +26,8 @@ void append(uint light) {
 }
 
 void append_all(uint first, uint hits) {
-    // At most max_list iterations in all, well below lavapipe's limit.
-    for (; hits != 0u && written < frame.max_list; hits &= hits - 1u) append(first + uint(findLSB(hits)));
+    // At most max_list iterations in all, well below lavapipe's limit. Not max_list itself: step 4 made room for `kept`.
+    for (; hits != 0u && written < kept; hits &= hits - 1u) append(first + uint(findLSB(hits)));
 }
 
 #define ON_HITS(first, hits) append_all(first, hits);
@@ -36,13 +37,11 @@ void main() {
     uint id = gl_GlobalInvocationID.x;
     if (id >= min(counters.clusters, frame.cluster_capacity)) return;
     texel = clusters[id].list;
-    uint kept = min(clusters[id].reaching, frame.max_list);
+    kept = min(clusters[id].reaching, frame.max_list);
     if (texel + (kept + 3u) / 4u > frame.list_capacity) return;
     visit_lights(clusters[id].lower, clusters[id].upper);
-    uint tail = written & 3u;
-    if (tail == 0u) return;
-    uint null_light = frame.light_count;
-    imageStore(
-            light_lists, list_texel(texel),
-            uvec4(four.x, tail > 1u ? four.y : null_light, tail > 2u ? four.z : null_light, null_light));
+    // Where this pipeline rounds a distance up that step 4's rounded down, more than a tail is left: none of it may stay
+    // undefined.
+    uint end = clusters[id].list + (kept + 3u) / 4u;
+    while (texel < end) append(frame.light_count);
 }
