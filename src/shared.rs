@@ -25,6 +25,8 @@ shared! {
         MAX_SLICES = 256;
         /// Invocations of one-dimensional compute work.
         LINEAR_GROUP = 64;
+        /// Workgroups along one side of a dispatch that every device grants.
+        MAX_GROUPS = 65535;
         /// Invocations of the single workgroup that scans.
         SCAN_GROUP = 256;
         /// Pixel without a surface in the image of cluster ids.
@@ -225,9 +227,9 @@ shared! {
         }
         /// What the cluster pass counts; the first three words are an indirect dispatch over clusters.
         Counters {
-            /// Workgroups over clusters.
+            /// Workgroups over clusters, at most `MAX_GROUPS` a row.
             groups_x: uint;
-            /// 1.
+            /// Rows of them.
             groups_y: uint;
             /// 1.
             groups_z: uint;

@@ -15,7 +15,7 @@ uint reaching = 0u;
 #include "cluster/reach.glsl"
 
 void main() {
-    uint id = gl_GlobalInvocationID.x;
+    uint id = cluster_here();
     if (id >= min(counters.clusters, frame.cluster_capacity)) return;
     visit_lights(clusters[id].lower, clusters[id].upper);
     clusters[id].reaching = reaching;

@@ -7,6 +7,12 @@
 layout(local_size_x = LINEAR_GROUP) in;
 layout(set = SET_scene, binding = SCENE_LIGHT_NODES) uniform utexture2D light_nodes;
 
+// The cluster of this invocation, row by row of the dispatch.
+uint cluster_here() {
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    return group * LINEAR_GROUP + gl_LocalInvocationIndex;
+}
+
 // Keeps a light whose window is 0 to the last bit rather than lose one to rounding.
 const float REACH = 1.00001;
 

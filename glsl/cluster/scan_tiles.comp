@@ -19,8 +19,9 @@ void main() {
         first += tiles[tile].count;
     }
     if (gl_LocalInvocationIndex == 0u) {
-        counters.groups_x = (min(total, frame.cluster_capacity) + LINEAR_GROUP - 1u) / LINEAR_GROUP;
-        counters.groups_y = 1u;
+        uint groups = (min(total, frame.cluster_capacity) + LINEAR_GROUP - 1u) / LINEAR_GROUP;
+        counters.groups_x = min(groups, MAX_GROUPS);
+        counters.groups_y = (groups + MAX_GROUPS - 1u) / MAX_GROUPS;
         counters.groups_z = 1u;
         counters.clusters = total;
     }

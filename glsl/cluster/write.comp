@@ -34,7 +34,7 @@ void append_all(uint first, uint hits) {
 #include "cluster/reach.glsl"
 
 void main() {
-    uint id = gl_GlobalInvocationID.x;
+    uint id = cluster_here();
     if (id >= min(counters.clusters, frame.cluster_capacity)) return;
     texel = clusters[id].list;
     kept = min(clusters[id].reaching, frame.max_list);
