@@ -41,7 +41,8 @@ impl Capacity {
     /// Whole layers of the list image.
     fn with_texels(self, texels: u32) -> Self {
         let layer = 1 << (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2);
-        Self { texels: texels.div_ceil(layer).max(1) * layer, ..self }
+        // More than fits in 32 bits no device has: the image of the lists says so.
+        Self { texels: texels.div_ceil(layer).clamp(1, u32::MAX / layer) * layer, ..self }
     }
 
     /// Enough for what the counters ask for; `None` if it is so already.
