@@ -1,7 +1,7 @@
 //! Typed buffers.
 
 use super::device::Device;
-use super::{Called, Commands, Use};
+use super::{Called, Commands, Use, too_large};
 use crate::error::{Error, Result};
 use ash::vk;
 use bytemuck::Pod;
@@ -66,6 +66,14 @@ impl<T: Pod> Buffer<T> {
     /// [`Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, name: &str, usage: BufferUse, len: usize) -> Result<Self> {
         let bytes = (len.max(1) * size_of::<T>()) as vk::DeviceSize;
+        let most = vk::DeviceSize::from(device.limits.max_storage_buffer_range);
+        if usage == BufferUse::Storage && bytes > most {
+            return Err(too_large(
+                &format!("buffer {name}"),
+                &format!("{bytes} bytes"),
+                &format!("{most} bytes"),
+            ));
+        }
         let info = vk::BufferCreateInfo::default().size(bytes).usage(usage.flags());
         // SAFETY: the size is not 0, and the usage fits the device by Vulkan's guarantees.
         let raw = unsafe { device.raw.create_buffer(&info, None) }.called("vkCreateBuffer")?;

@@ -41,10 +41,9 @@ pub struct Device {
     pub(super) raw: ash::Device,
     pub(super) memory: Memory,
     pub(super) debug: Option<ash::ext::debug_utils::Device>,
-    pub(super) timestamp_period: f32,
+    pub(super) limits: vk::PhysicalDeviceLimits,
     pub(super) timestamp_bits: u32,
     pub(super) max_anisotropy: Option<f32>,
-    #[cfg(feature = "viewer")]
     pub(super) physical: vk::PhysicalDevice,
     info: DeviceInfo,
     queue: vk::Queue,
@@ -116,11 +115,10 @@ impl Device {
         Ok(Self {
             memory,
             debug,
-            timestamp_period: chosen.limits.timestamp_period,
+            limits: chosen.limits,
             timestamp_bits: chosen.timestamp_bits,
             max_anisotropy: (supported.sampler_anisotropy == vk::TRUE)
                 .then_some(chosen.limits.max_sampler_anisotropy),
-            #[cfg(feature = "viewer")]
             physical: chosen.physical,
             info: chosen.info,
             queue,
@@ -208,6 +206,22 @@ impl Device {
     #[cfg(feature = "viewer")]
     pub(super) fn swapchain_loader(&self) -> ash::khr::swapchain::Device {
         ash::khr::swapchain::Device::new(&self.instance.raw, &self.raw)
+    }
+
+    /// The largest image of this format, kind and usage.
+    pub(super) fn image_limits(&self, info: &vk::ImageCreateInfo<'_>) -> Result<vk::ImageFormatProperties> {
+        // SAFETY: the device belongs to the instance.
+        unsafe {
+            self.instance.raw.get_physical_device_image_format_properties(
+                self.physical,
+                info.format,
+                info.image_type,
+                info.tiling,
+                info.usage,
+                info.flags,
+            )
+        }
+        .called("vkGetPhysicalDeviceImageFormatProperties")
     }
 
     /// Names an object in captures and validation messages.

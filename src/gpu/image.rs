@@ -1,7 +1,7 @@
 //! Images with one view each.
 
 use super::device::Device;
-use super::{Buffer, BufferUse, Called, Commands, Use};
+use super::{Buffer, BufferUse, Called, Commands, Use, too_large};
 use crate::error::Result;
 use ash::vk;
 use bytemuck::Pod;
@@ -53,7 +53,8 @@ impl Image {
             .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(uses.iter().fold(vk::ImageUsageFlags::empty(), |flags, &used| flags | usage(used)));
-        // SAFETY: format and limits were checked against the device's table, sizes against the scene's.
+        require_room(device, name, &info)?;
+        // SAFETY: the format was checked against the device's table, the size just now.
         let raw = unsafe { device.raw.create_image(&info, None) }.called("vkCreateImage")?;
         let mut image = Self {
             raw,
@@ -186,6 +187,24 @@ impl Drop for Image {
             self.device.memory.free(allocation);
         }
     }
+}
+
+fn require_room(device: &Device, name: &str, info: &vk::ImageCreateInfo<'_>) -> Result<()> {
+    let most = device.image_limits(info)?;
+    let vk::Extent3D { width, height, .. } = info.extent;
+    if width <= most.max_extent.width
+        && height <= most.max_extent.height
+        && info.mip_levels <= most.max_mip_levels
+        && info.array_layers <= most.max_array_layers
+    {
+        return Ok(());
+    }
+    let shape = |width, height, layers| format!("{width} × {height} texels in {layers} layers");
+    Err(too_large(
+        &format!("image {name}"),
+        &shape(width, height, info.array_layers),
+        &shape(most.max_extent.width, most.max_extent.height, most.max_array_layers),
+    ))
 }
 
 fn usage(used: Use) -> vk::ImageUsageFlags {

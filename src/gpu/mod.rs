@@ -60,6 +60,16 @@ fn failed(call: impl Into<String>, result: vk::Result) -> Error {
     Error::Vulkan { call: call.into(), result: format!("{result:?}"), remedy: remedy.into() }
 }
 
+/// A request beyond what the device has, as an [`Error`]: to ask the driver nevertheless would be undefined.
+fn too_large(what: &str, asked: &str, most: &str) -> Error {
+    Error::Vulkan {
+        call: what.into(),
+        result: format!("{asked}, of which the device allows {most}"),
+        remedy: "use a smaller picture, smaller textures or fewer lights, or another device with --device"
+            .into(),
+    }
+}
+
 /// Attaches the call's name to a raw result.
 trait Called<T> {
     fn called(self, call: &str) -> Result<T>;

@@ -52,7 +52,7 @@ impl Timestamps {
         }
         .called("vkGetQueryPoolResults")?;
         let mask = u64::MAX >> (64 - self.device.timestamp_bits.clamp(1, 64));
-        let period = f64::from(self.device.timestamp_period) * 1e-6;
+        let period = f64::from(self.device.limits.timestamp_period) * 1e-6;
         Ok(Some(
             ticks.windows(2).map(|pair| (pair[1].wrapping_sub(pair[0]) & mask) as f64 * period).collect(),
         ))

@@ -1,7 +1,7 @@
 //! Render passes and their subpasses, described as data.
 
 use super::device::Device;
-use super::{Called, Image, Use};
+use super::{Called, Image, Use, too_large};
 use crate::error::Result;
 use ash::vk;
 use std::sync::Arc;
@@ -178,6 +178,13 @@ impl Framebuffer {
     pub fn new(device: &Arc<Device>, pass: &RenderPass, images: &[&Image]) -> Result<Self> {
         let views: Vec<_> = images.iter().map(|image| image.view).collect();
         let size = images.first().map_or([1, 1], |image| image.size);
+        let limits = &device.limits;
+        let framebuffer = [limits.max_framebuffer_width, limits.max_framebuffer_height];
+        let most = [0, 1].map(|axis| framebuffer[axis].min(limits.max_viewport_dimensions[axis]));
+        if size[0] > most[0] || size[1] > most[1] {
+            let shape = |[width, height]: [u32; 2]| format!("{width} × {height} pixels");
+            return Err(too_large("the picture", &shape(size), &shape(most)));
+        }
         let info = vk::FramebufferCreateInfo::default()
             .render_pass(pass.raw)
             .attachments(&views)
