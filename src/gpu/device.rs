@@ -94,6 +94,8 @@ impl Device {
         let supported = unsafe { instance.raw.get_physical_device_features(chosen.physical) };
         let features = vk::PhysicalDeviceFeatures {
             sampler_anisotropy: supported.sampler_anisotropy,
+            // All vertices lie in one buffer; without it their indices end at 2²⁴.
+            full_draw_index_uint32: supported.full_draw_index_uint32,
             ..vk::PhysicalDeviceFeatures::default()
         };
         let info = vk::DeviceCreateInfo::default()
