@@ -166,7 +166,11 @@ impl Frame {
 
     fn update_constants(&mut self, inputs: &FrameInputs<'_>, sample: u32) -> Result<()> {
         let jitter = jitter(sample, inputs.samples);
-        let mut constants = camera_constants(inputs.camera, self.settings.size, jitter, self.scene.bounds);
+        let origin = self.scene.origin.as_dvec3();
+        let mut camera = inputs.camera.clone();
+        camera.position -= origin;
+        camera.target -= origin;
+        let mut constants = camera_constants(&camera, self.settings.size, jitter, self.scene.bounds);
         // N samples share a pixel, so each filters its textures over an N-th of it.
         constants.texture_bias = -0.5 * (inputs.samples as f32).log2();
         constants.light_count = self.scene.lights.lights.len() as u32;

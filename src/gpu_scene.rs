@@ -12,6 +12,7 @@ use crate::light_tree::LightTree;
 use crate::scene::material::PARAMETER_COUNT;
 use crate::scene::{Material, Model, Parameter, PointLight, Scene, Vertex};
 use crate::shared::{self, LightNode, MaterialRecord};
+use glam::Vec3;
 use rayon::prelude::*;
 use std::sync::Arc;
 use textures::Textures;
@@ -51,6 +52,9 @@ pub struct GpuScene {
     pub variants: Vec<Variant>,
     /// Point lights in device order.
     pub lights: LightTree,
+    /// World position of the device's origin. A scene far from the world's is moved to its own, where float32 is fine
+    /// enough: 1e5 m out, 46 % of pixels were more than 1 % off.
+    pub origin: Vec3,
     /// Lower and upper corner of all triangles; `None` without any.
     pub bounds: Option<[glam::DVec3; 2]>,
     /// Layout that every pipeline of the frame shares.
@@ -74,8 +78,14 @@ impl GpuScene {
             &[shared::frame::BINDINGS, shared::scene::BINDINGS, shared::material::BINDINGS],
         )?);
         let (variants, of_mesh) = variants(scene)?;
-        let (vertices, triangles, draws) = geometry(scene, &of_mesh);
-        let lights = LightTree::new(&scene.point_lights);
+        let origin = origin(scene);
+        let (vertices, triangles, draws) = geometry(scene, &of_mesh, origin);
+        let lights: Vec<_> = scene
+            .point_lights
+            .iter()
+            .map(|&light| PointLight { position: light.position - origin, ..light })
+            .collect();
+        let lights = LightTree::new(&lights);
         let light_image = light_image(device, &lights.lights)?;
         let nodes = node_image(device, &lights.nodes)?;
         let records: Vec<_> = scene.materials.iter().map(record).collect();
@@ -95,6 +105,7 @@ impl GpuScene {
             triangles: Buffer::with(device, "triangles", BufferUse::Index, &triangles)?,
             draws,
             variants,
+            origin,
             bounds: bounds(&vertices),
             lights,
             layout,
@@ -209,7 +220,11 @@ fn record(material: &Material) -> MaterialRecord {
 }
 
 /// All triangles in one buffer, sorted by variant and material, so that pipelines change as rarely as they can.
-fn geometry(scene: &Scene, variants: &[MeshVariants]) -> (Vec<Vertex>, Vec<[u32; 3]>, Vec<Draw>) {
+fn geometry(
+    scene: &Scene,
+    variants: &[MeshVariants],
+    origin: Vec3,
+) -> (Vec<Vertex>, Vec<[u32; 3]>, Vec<Draw>) {
     let mut order: Vec<_> =
         scene.meshes.iter().zip(variants).filter(|(mesh, _)| !mesh.triangles.is_empty()).collect();
     order.sort_by_key(|(mesh, variants)| (variants.own, variants.from_outside, mesh.material));
@@ -219,7 +234,12 @@ fn geometry(scene: &Scene, variants: &[MeshVariants]) -> (Vec<Vertex>, Vec<[u32;
     for (mesh, variants) in order {
         let base = vertices.len() as u32;
         let first = triangles.len() as u32;
-        vertices.extend_from_slice(&mesh.vertices);
+        let moved = |vertex: &Vertex| Vertex {
+            position: (Vec3::from(vertex.position) - origin).to_array(),
+            ..*vertex
+        };
+        let start = vertices.len();
+        vertices.extend(mesh.vertices.iter().map(moved));
         triangles.extend(mesh.triangles.iter().map(|triangle| triangle.map(|index| index + base)));
         draws.push(Draw {
             variant: variants.own,
@@ -227,10 +247,20 @@ fn geometry(scene: &Scene, variants: &[MeshVariants]) -> (Vec<Vertex>, Vec<[u32;
             material: mesh.material,
             first,
             count: mesh.triangles.len() as u32,
-            bounds: bounds(&mesh.vertices).unwrap_or_default(),
+            bounds: bounds(&vertices[start..]).unwrap_or_default(),
         });
     }
     (vertices, triangles, draws)
+}
+
+/// The scene's middle where it lies far from the world's origin for its size, else that origin. Differences of
+/// neighbouring float32 values are exact.
+fn origin(scene: &Scene) -> Vec3 {
+    let all = scene.meshes.iter().flat_map(|mesh| bounds(&mesh.vertices));
+    let Some([lower, upper]) = all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]) else { return Vec3::ZERO };
+    let middle = (lower + upper) / 2.0;
+    let far = middle.abs().max_element() > 4.0 * (upper - lower).max_element();
+    if far { middle.as_vec3() } else { Vec3::ZERO }
 }
 
 fn bounds(vertices: &[Vertex]) -> Option<[glam::DVec3; 2]> {

@@ -51,6 +51,14 @@ vec3 tangent_to(vec3 n, vec3 t) {
     return t2 > 1e-12 ? t * inversesqrt(t2) : any_tangent(n);
 }
 
+// A normal map's normal bent just far enough to face the viewer: one that faces away belongs to a bump's far side,
+// which the viewer cannot see, and would leave a black hole.
+vec3 facing(vec3 n, vec3 wo) {
+    const float least = 0.01;
+    float away = least - dot(n, wo);
+    return away > 0.0 ? normalize(n + away * wo) : n;
+}
+
 // Tangent, bitangent, normal. A two-sided surface's interpolated normal is turned to the viewer by its own cosine,
 // not by the triangle's facing: at the silhouette of a smooth mesh the two differ, and a normal turned away would
 // leave a black rim. A normal map is applied on the front and turned with it.
@@ -62,7 +70,9 @@ mat3 shading_frame(vec3 wo) {
         vec3 m = sample_slot(SLOT_NORMAL, in_uv).xyz * 2.0 - 1.0;
         float handed = in_tangent.w < 0.0 ? -1.0 : 1.0;
         vec3 mapped = m.x * t + m.y * handed * cross(n, t) + m.z * n;
-        if (dot(mapped, mapped) > 1e-12 && dot(in_tangent.xyz, in_tangent.xyz) > 0.0) n = normalize(mapped);
+        if (dot(mapped, mapped) > 1e-12 && dot(in_tangent.xyz, in_tangent.xyz) > 0.0) {
+            n = turn * facing(turn * normalize(mapped), wo);
+        }
     }
     n *= turn;
     t = tangent_to(n, t);

@@ -48,7 +48,13 @@ impl Frame {
             aov.record(cmd, &self.view());
             Ok(())
         })?;
-        aov.fetch()
+        let mut values = aov.fetch()?;
+        if quantity == Quantity::Position {
+            let origin = self.scene.origin.to_array();
+            // The fourth value is 1 where a surface is, and 0 elsewhere.
+            values.iter_mut().for_each(|v| (0..3).for_each(|axis| v[axis] += v[3] * origin[axis]));
+        }
+        Ok(values)
     }
 
     /// Pairs of pixel and light in the picture last rendered.

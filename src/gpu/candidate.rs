@@ -111,7 +111,7 @@ pub(super) fn choose(mut candidates: Vec<Candidate>, wanted: Option<&str>) -> Re
         }
         None if wanted.is_some() => Err(Error::NoDevice {
             cause: format!(
-                "no device is named {:?}; there are {}",
+                "no device is named {:?}; the machine has {}",
                 wanted.unwrap_or_default(),
                 names.join(", ")
             ),

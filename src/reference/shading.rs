@@ -97,11 +97,22 @@ fn shading_frame(mesh: &Mesh, hit: &Hit, parameters: &Parameters, wo: DVec3) -> 
         return (Frame::about(turn * normal), false);
     };
     let handedness = interpolate(mesh, hit, |v| [f64::from(v.tangent[3]); 3]).x.signum();
-    let normal = turn * parameters.mapped_normal(&frame, handedness).unwrap_or(normal);
+    let mapped = parameters.mapped_normal(&frame, handedness).map(|mapped| facing(turn * mapped, wo));
+    let normal = mapped.unwrap_or(turn * normal);
     match Frame::with_tangent(normal, frame.tangent) {
         Some(frame) => (frame, true),
         None => (Frame::about(normal), false),
     }
+}
+
+/// Least cosine of a mapped normal to the viewer.
+const FACING: f64 = 0.01;
+
+/// A normal map's normal bent just far enough to face the viewer: one that faces away belongs to a bump's far side,
+/// which the viewer cannot see, and would leave a black hole.
+fn facing(normal: DVec3, wo: DVec3) -> DVec3 {
+    let away = FACING - normal.dot(wo);
+    if away > 0.0 { (normal + away * wo).normalize_or(wo) } else { normal }
 }
 
 /// Texture coordinates at a hit.

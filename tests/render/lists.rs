@@ -57,6 +57,8 @@ fn check(text: &str) -> f64 {
         if covered {
             let list = &lists[id as usize];
             let point = Vec3::new(position[0], position[1], position[2]).as_dvec3();
+            // Lights are where the device has them.
+            let point = point - rig.gpu_scene.origin.as_dvec3();
             let truth = reaching_point(lights, point);
             for light in &truth {
                 assert!(

@@ -7,6 +7,7 @@ mod common;
 
 mod cameras;
 mod clusters;
+mod far;
 mod lists;
 mod oracle;
 mod support;
