@@ -13,8 +13,11 @@ fn a_hundred_kilometres_out() {
             "position = [1e5, 1.5, 5]\ntarget = [1e5, 0.5, 0]",
         )
         .replace("size = 8", "size = 8\ntranslate = [1e5, 0, 0]")
-        .replace("translate = [-1.5, 0.4, 0]", "translate = [99998.5, 0.4, 0]")
-        .replace("translate = [0, 0.4, 0]", "translate = [1e5, 0.4, 0]")
+        .replace("translate = [-1.5,", "translate = [99998.5,")
+        .replace("translate = [-0.75,", "translate = [99999.25,")
+        .replace("translate = [0,", "translate = [100000,")
+        .replace("translate = [0.75,", "translate = [100000.75,")
+        .replace("translate = [1.5,", "translate = [100001.5,")
         .replace("min = [-4,", "min = [99996,")
         .replace("max = [4,", "max = [100004,");
     let mut rig = Rig::new(scene(&text));
