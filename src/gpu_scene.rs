@@ -1,5 +1,6 @@
 //! A scene on the device: triangles sorted by what draws them, materials, textures, lights.
 
+mod coincident;
 mod textures;
 
 use crate::draws::{Draw, is_closed};
@@ -12,6 +13,7 @@ use crate::light_tree::LightTree;
 use crate::scene::material::PARAMETER_COUNT;
 use crate::scene::{Material, Model, Parameter, PointLight, Scene, Vertex};
 use crate::shared::{self, LightNode, MaterialRecord};
+use coincident::Drawn;
 use glam::Vec3;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -231,6 +233,7 @@ fn geometry(
     let mut vertices = Vec::new();
     let mut triangles = Vec::new();
     let mut draws = Vec::new();
+    let mut drawn = Drawn::default();
     for (mesh, variants) in order {
         let base = vertices.len() as u32;
         let first = triangles.len() as u32;
@@ -240,13 +243,16 @@ fn geometry(
         };
         let start = vertices.len();
         vertices.extend(mesh.vertices.iter().map(moved));
-        triangles.extend(mesh.triangles.iter().map(|triangle| triangle.map(|index| index + base)));
+        let both_sides = scene.materials[mesh.material as usize].two_sided;
+        let corners = |triangle: &[u32; 3]| triangle.map(|index| mesh.vertices[index as usize].position);
+        let fresh = mesh.triangles.iter().filter(|triangle| drawn.insert(corners(triangle), both_sides));
+        triangles.extend(fresh.map(|triangle| triangle.map(|index| index + base)));
         draws.push(Draw {
             variant: variants.own,
             from_outside: variants.from_outside,
             material: mesh.material,
             first,
-            count: mesh.triangles.len() as u32,
+            count: triangles.len() as u32 - first,
             bounds: bounds(&vertices[start..]).unwrap_or_default(),
         });
     }
@@ -321,7 +327,8 @@ fn node_image(device: &Arc<Device>, nodes: &[LightNode]) -> Result<Image> {
 
 fn light_texels(light: &PointLight) -> [[f32; 4]; 2] {
     let (inverse_range2, floor) = match light.range {
-        Some(range) => (1.0 / (range * range), 1e-4),
+        // The square of the smallest ranges is 0.
+        Some(range) => ((1.0 / (range * range)).min(f32::MAX), 1e-4),
         None => (0.0, 1e-12),
     };
     let (p, i) = (light.position, light.intensity);

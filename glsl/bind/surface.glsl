@@ -63,7 +63,8 @@ vec3 facing(vec3 n, vec3 wo) {
 // not by the triangle's facing: at the silhouette of a smooth mesh the two differ, and a normal turned away would
 // leave a black rim. A normal map is applied on the front and turned with it.
 mat3 shading_frame(vec3 wo) {
-    vec3 n = normalize(in_normal);
+    // Normals that cancel between vertices have no direction.
+    vec3 n = dot(in_normal, in_normal) > 1e-20 ? normalize(in_normal) : vec3(0.0, 1.0, 0.0);
     float turn = TWO_SIDED && dot(n, wo) < 0.0 ? -1.0 : 1.0;
     vec3 t = tangent_to(n, in_tangent.xyz);
     if (SLOT_NORMAL != NO_TEXTURE) {

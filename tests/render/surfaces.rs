@@ -45,6 +45,20 @@ fn duplicate_triangles_are_shaded_once() {
     shaded_once(&mut Rig::new(scene_with(text, &[("t.obj", obj)])));
 }
 
+/// The same sheet again with the other winding, and as another mesh: lit once.
+#[test]
+fn coincident_sheets_are_lit_once() {
+    let mesh = |obj: &str| format!("[[mesh]]\nobj = \"{obj}\"\n");
+    let text = "[render]\nsize = [40, 40]\n[[camera]]\nname = \"c\"\nposition = [0, 1, 4]\ntarget = [0, 1, 0]\n\
+                vertical_fov = 40\n[[light]]\ntype = \"point\"\nposition = [0, 1, 3]\nintensity = [1, 1, 1]\n";
+    let one = b"v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n";
+    let two = b"v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\nf 1 3 2\n";
+    let files: [(&str, &[u8]); 2] = [("one.obj", one), ("two.obj", two)];
+    let single = Rig::new(scene_with(&format!("{text}{}", mesh("one.obj")), &files)).render();
+    let doubled = format!("{text}{}{}", mesh("two.obj"), mesh("one.obj"));
+    assert_eq!(Rig::new(scene_with(&doubled, &files)).render(), single);
+}
+
 #[test]
 fn nothing_but_background() {
     let text = "[render]\nsize = [20, 10]\nbackground = [0.25, 0.5, 1]\n[[camera]]\nname = \"c\"\nposition = [0, 0, 1]\n\
