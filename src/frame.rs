@@ -100,6 +100,7 @@ impl Frame {
             let sample = Sample { first: index == 0, scale: inputs.exposure.exp2() / (index + 1) as f32 };
             self.submit(sample, inputs.split, &mut watch)?;
             watch.add_gpu(self.timestamps.intervals()?);
+            inputs.progress.inc(1);
             self.samples = index + 1;
             self.counters = self.readback.read()?[0];
             if self.cluster.is_some()
@@ -107,6 +108,7 @@ impl Frame {
             {
                 self.lists = ClusterTargets::new(&self.device, tiles(self.settings.size), capacity)?;
                 self.bind();
+                inputs.progress.dec(u64::from(index) + 1);
                 return Ok(None);
             }
         }

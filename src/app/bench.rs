@@ -73,8 +73,13 @@ fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) ->
     let gpu_scene = Arc::new(in_scene(&scene_options, GpuScene::new(device, &scene))?);
     let settings = FrameSettings::new(&scene.render, camera);
     let mut frame = Frame::new(device, &gpu_scene, settings)?;
-    let inputs =
-        FrameInputs { camera, samples: scene.render.samples, exposure: scene.render.exposure, split: false };
+    let inputs = FrameInputs {
+        camera,
+        samples: scene.render.samples,
+        exposure: scene.render.exposure,
+        split: false,
+        progress: ProgressBar::hidden(),
+    };
     let (whole, all) = measure(&mut frame, &inputs, options)?;
     report::warn_of_overflow(&frame.counters(), settings.max_lights_per_cluster);
     let [width, height] = settings.size;

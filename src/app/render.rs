@@ -52,16 +52,22 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let mut frame = Frame::new(&device, &gpu_scene, settings)?;
 
     let frames = options.frames.clone().unwrap_or(0..1);
-    let bar = progress(frames.len() as u64);
+    let bar = progress(frames.len() as u64 * u64::from(scene.render.samples));
     let mut timings = Vec::new();
     for index in frames {
         let placed = match options.frames {
             Some(_) => camera.at(f64::from(index) / FRAME_RATE),
             None => camera.clone(),
         };
-        timings.push(picture(&mut frame, &scene, &placed, &outputs, index, options.report.is_some())?);
+        let inputs = FrameInputs {
+            camera: &placed,
+            samples: scene.render.samples,
+            exposure: scene.render.exposure,
+            split: options.report.is_some(),
+            progress: bar.clone(),
+        };
+        timings.push(picture(&mut frame, &inputs, settings.size, (&outputs, index))?);
         save_aovs(&device, &gpu_scene, &mut frame, &scene, &placed, (&aovs, index))?;
-        bar.inc(1);
     }
     bar.finish_and_clear();
     report::warn_of_overflow(&frame.counters(), settings.max_lights_per_cluster);
@@ -105,10 +111,10 @@ fn aov_output((name, file): &(String, String)) -> Result<AovOutput> {
     Ok(AovOutput { variable, file: file.into() })
 }
 
-/// A bar on a terminal, nothing in a pipe or for a single frame.
-fn progress(frames: u64) -> ProgressBar {
-    if frames > 1 && std::io::stderr().is_terminal() {
-        ProgressBar::new(frames)
+/// A bar on a terminal, nothing in a pipe or for a single sample.
+fn progress(samples: u64) -> ProgressBar {
+    if samples > 1 && std::io::stderr().is_terminal() {
+        ProgressBar::new(samples)
     } else {
         ProgressBar::hidden()
     }
@@ -116,21 +122,17 @@ fn progress(frames: u64) -> ProgressBar {
 
 fn picture(
     frame: &mut Frame,
-    scene: &Scene,
-    camera: &Camera,
-    outputs: &[PathBuf],
-    index: u32,
-    split: bool,
+    inputs: &FrameInputs<'_>,
+    [width, height]: [u32; 2],
+    (outputs, index): (&[PathBuf], u32),
 ) -> Result<Timings> {
-    let render = &scene.render;
-    let inputs = FrameInputs { camera, samples: render.samples, exposure: render.exposure, split };
-    let timings = frame.render(&inputs)?;
+    let timings = frame.render(inputs)?;
     for output in outputs {
         let path = frame_path(output, index);
         match check_picture(output)? {
             Kind::Display => {
                 let pixels: Vec<[u8; 3]> = frame.ldr()?.iter().map(|&[r, g, b, _]| [r, g, b]).collect();
-                save_png8(&path, render.size[0], render.size[1], &pixels)?;
+                save_png8(&path, width, height, &pixels)?;
             }
             Kind::Linear => frame.hdr()?.save(&path)?,
         }
@@ -147,7 +149,8 @@ fn save_aovs(
     (aovs, index): (&[AovOutput], u32),
 ) -> Result<()> {
     // Variables are those of the pixel's centre, and of light alone.
-    let inputs = FrameInputs { camera, samples: 1, exposure: 0.0, split: false };
+    let inputs =
+        FrameInputs { camera, samples: 1, exposure: 0.0, split: false, progress: ProgressBar::hidden() };
     if scene.render.samples > 1 && !aovs.is_empty() {
         frame.render(&inputs)?;
     }
@@ -176,7 +179,13 @@ fn direct_light(
     let settings = FrameSettings { background: [0.0; 3], ..FrameSettings::new(&scene.render, camera) };
     let mut frame = Frame::new(device, gpu_scene, settings)?;
     let samples = scene.render.samples;
-    frame.render(&FrameInputs { camera, samples, exposure: 0.0, split: false })?;
+    frame.render(&FrameInputs {
+        camera,
+        samples,
+        exposure: 0.0,
+        split: false,
+        progress: ProgressBar::hidden(),
+    })?;
     frame.hdr()
 }
 

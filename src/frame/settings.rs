@@ -1,6 +1,8 @@
 //! What a frame is made for, and what changes from picture to picture.
 
 use crate::scene::settings::Tonemap;
+use indicatif::ProgressBar;
+
 use crate::scene::{Camera, Projection, RenderSettings};
 
 /// What a frame is made for; changing it means a new [`Frame`](super::Frame).
@@ -46,4 +48,6 @@ pub struct FrameInputs<'a> {
     pub exposure: f32,
     /// Submit pass by pass, so that each pass's CPU time is known; slower.
     pub split: bool,
+    /// Advances by one for each sample.
+    pub progress: ProgressBar,
 }

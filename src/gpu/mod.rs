@@ -1,10 +1,10 @@
 //! A thin safe layer over `ash`: the only module with `unsafe`.
 //!
-//! What it promises: memory safety by types. Objects free themselves in `Drop`, buffers are typed, an image's aspect
-//! follows from its format, raw handles do not leave this module. What it does not: that the GPU has finished with an
-//! object when it is dropped, and that layouts and bounds are right. For the first, work is submitted and waited for
-//! before anything it uses can be dropped ([`Device::run`]); the second is what the validation layers check in every
-//! GPU test.
+//! What it promises: objects free themselves in `Drop`, buffers are typed, an image's aspect follows from its format, raw
+//! handles do not leave this module. What it does not, as marking all of Vulkan `unsafe` would only be noise: that
+//! whatever is recorded outlives the recording ([`Device::run`] submits and waits before it returns, so an object made
+//! outside its closure does, and one made and dropped inside does not), and that layouts, bounds and hazards are right.
+//! The validation layers check the latter in every GPU test.
 
 mod allocation;
 mod barrier;

@@ -47,6 +47,7 @@ impl Rig {
             samples: self.scene.render.samples,
             exposure: 0.0,
             split: false,
+            progress: indicatif::ProgressBar::hidden(),
         };
         self.frame.render(&inputs).unwrap();
         let image = self.frame.hdr().unwrap();

@@ -64,7 +64,13 @@ impl Stage {
         let Some(frame) = &mut self.frame else {
             return Ok(None);
         };
-        frame.render(&FrameInputs { camera, samples, exposure: scene.render.exposure, split: false })?;
+        frame.render(&FrameInputs {
+            camera,
+            samples,
+            exposure: scene.render.exposure,
+            split: false,
+            progress: indicatif::ProgressBar::hidden(),
+        })?;
         if !self.warned && frame.counters().dropped > 0 {
             report::warn_of_overflow(&frame.counters(), scene.render.max_lights_per_cluster);
             self.warned = true;
