@@ -1,4 +1,5 @@
-// Step 1: the occupied slices of each tile. One workgroup a tile, one invocation a pixel.
+// Step 1: the occupied slices of each tile. One workgroup a tile, one invocation a column: on lavapipe that is one vector,
+// and a barrier costs nothing.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -6,7 +7,7 @@
 #include "bind/frame.glsl"
 #include "lib/cluster.glsl"
 
-layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+layout(local_size_x = TILE_SIZE) in;
 layout(set = SET_frame, binding = FRAME_DEPTH) uniform texture2D depth_texture;
 layout(set = SET_frame, binding = FRAME_TILES, std430) writeonly buffer TileBlock { Tile tiles[]; };
 
@@ -17,8 +18,9 @@ void main() {
     if (lane < SLICE_WORDS) slices[lane] = 0u;
     barrier();
 
-    uvec2 pixel = gl_GlobalInvocationID.xy;
-    if (all(lessThan(pixel, frame.size))) {
+    for (uint row = 0u; row < TILE_SIZE; ++row) {
+        uvec2 pixel = gl_WorkGroupID.xy * TILE_SIZE + uvec2(lane, row);
+        if (any(greaterThanEqual(pixel, frame.size))) continue;
         float depth = texelFetch(depth_texture, ivec2(pixel), 0).r;
         if (depth > 0.0) {
             uint slice = slice_of(frame, view_depth(frame, depth));
