@@ -5,6 +5,7 @@ use super::outputs::{check_distinct, check_linear};
 use super::{camera, in_scene, load_scene};
 use crate::error::Result;
 use crate::reference::{Integrator, Options, render};
+use crate::scene::RenderSettings;
 
 pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
     check_linear(&options.output)?;
@@ -12,6 +13,7 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
     check_distinct([&options.output].into_iter().chain(&options.error), options.scene.scene.as_deref())?;
     let scene = load_scene(&options.scene)?;
     let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
+    warn_of_missing_light(&scene.render);
     let defaults = Options::of_scene(&scene);
     let rendered = render(
         &scene,
@@ -30,4 +32,13 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
     )?;
     rendered.image.save(&options.output)?;
     options.error.iter().try_for_each(|path| rendered.standard_error.save(path))
+}
+
+/// `direct` is unshadowed direct light, whatever the scene asks for.
+fn warn_of_missing_light(render: &RenderSettings) {
+    for (asked, what) in [(render.shadows, "shadows"), (render.vpls > 0, "indirect light")] {
+        if asked {
+            eprintln!("amas: warning: the scene asks for {what}; the direct integrator leaves that out");
+        }
+    }
 }
