@@ -16,7 +16,7 @@ layout(location = 0) out vec4 value;
 
 void main() {
     if (AOV == AOV_POSITION) {
-        value = vec4(in_position, 1.0);
+        value = vec4(surface_position(), 1.0);
     } else if (AOV == AOV_NORMAL) {
         value = vec4(shading_frame(view_direction())[2], 1.0);
     } else if (AOV == AOV_MATERIAL) {

@@ -17,12 +17,12 @@ layout(constant_id = 7) const bool LOBE_METALLIC = false;
 layout(constant_id = 8) const bool TWO_SIDED = true;
 layout(constant_id = 9) const bool PERSPECTIVE = true;
 
-layout(location = 0) in vec3 in_position;
 layout(location = 1) in vec3 in_normal;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec2 in_uv;
 
 #include "lib/bsdf.glsl"
+#include "lib/cluster.glsl"
 
 // Intensities end at 1e18, so a single light cannot overflow; the sum of a million can, and infinity is no radiance.
 const vec3 MAX_RADIANCE = vec3(1e30);
@@ -113,12 +113,18 @@ BsdfParameters surface_parameters() {
     return p;
 }
 
+// World position of the surface at the pixel's centre, from the depth that the fragment has: the cluster pass bounds the
+// same points. A device that snaps vertices to few subpixel positions moves interpolated ones along the surface.
+vec3 surface_position() {
+    return world_position(frame, gl_FragCoord.xy, view_depth(frame, gl_FragCoord.z));
+}
+
 // Towards the viewer, world.
-vec3 view_direction() { return PERSPECTIVE ? normalize(frame.eye - in_position) : -frame.forward; }
+vec3 view_direction() { return PERSPECTIVE ? normalize(frame.eye - surface_position()) : -frame.forward; }
 
 Surface surface_here() {
     Surface s;
-    s.position = in_position;
+    s.position = surface_position();
     vec3 wo = view_direction();
     s.world_from_local = shading_frame(wo);
     s.bsdf = bsdf_setup(surface_parameters(), wo * s.world_from_local);

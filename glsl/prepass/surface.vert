@@ -9,7 +9,6 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 
-layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec4 out_tangent;
 layout(location = 3) out vec2 out_uv;
@@ -17,7 +16,6 @@ layout(location = 3) out vec2 out_uv;
 invariant gl_Position;
 
 void main() {
-    out_position = position;
     out_normal = normal;
     out_tangent = tangent;
     out_uv = uv;
