@@ -85,7 +85,7 @@ fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) ->
     let [width, height] = settings.size;
     let passes = report::passes(&all);
     report::print_table(&format!("{name}, {width}x{height}, {}", device.info().name), &passes, &whole)?;
-    let pairs = report::pairs(frame.pairs()?, &passes, device.info(), settings.size);
+    let pairs = report::pairs(frame.pairs()?, &passes, device.info(), &scene.render);
     print(&pairs)?;
     Ok(Point {
         scene: name,

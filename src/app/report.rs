@@ -7,7 +7,7 @@ use crate::frame::{Frame, Timings};
 use crate::gpu::{Device, DeviceInfo};
 use crate::image::write_atomically;
 use crate::passes::pairs::PairCount;
-use crate::scene::Scene;
+use crate::scene::{RenderSettings, Scene};
 use crate::shared::Counters;
 use serde::Serialize;
 use std::io::Write;
@@ -122,7 +122,7 @@ impl<'a> Report<'a> {
                 area_lights: scene.area_lights.len(),
             },
             image: ImageSize { width, height },
-            pairs: pairs(frame.pairs()?, &passes, device.info(), [width, height]),
+            pairs: pairs(frame.pairs()?, &passes, device.info(), &scene.render),
             passes,
             frame: FrameTime {
                 wall_ms: figure(timings, |t| Some(t.wall_ms)),
@@ -179,13 +179,16 @@ pub(super) fn pairs(
     count: PairCount,
     passes: &[Pass],
     device: &DeviceInfo,
-    [width, height]: [u32; 2],
+    render: &RenderSettings,
 ) -> Pairs {
+    let [width, height] = render.size;
     let time = |pass: &Pass| {
         if device.kind == "cpu" { pass.cpu_ms } else { pass.gpu_ms.map(|ms| ms.median) }
     };
     let shading = passes.iter().filter(|pass| matches!(pass.name, "direct" | "indirect"));
     let ms: Option<f64> = shading.map(time).sum();
+    // Passes are timed over all samples, pairs counted in the last.
+    let ms = ms.map(|ms| ms / f64::from(render.samples));
     Pairs {
         evaluated: count.evaluated,
         useful: count.useful,
