@@ -1,7 +1,7 @@
 //! Everything that Rust and GLSL both know: structs, constants, sets and bindings, declared once.
 //!
 //! `build.rs` compiles this file too and writes [`GLSL`] to `shared.glsl`, which every shader includes.
-//! `tests/layout.rs` compares the offsets and bindings below with those in the compiled SPIR-V.
+//! `tests/layout` compares the offsets and bindings below with those in the compiled SPIR-V.
 //! Fields are laid out so that Rust's `repr(C)`, std140 and std430 agree: no field straddles its alignment.
 
 #![allow(non_camel_case_types, reason = "field types are spelled as in GLSL")]
