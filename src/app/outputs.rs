@@ -12,18 +12,21 @@ pub(super) enum Kind {
     Linear,
 }
 
+/// What a picture file holds; an error where no format has its extension.
+pub(super) fn kind(path: &Path) -> Result<Kind> {
+    match extension(path).as_str() {
+        "png" => Ok(Kind::Display),
+        "exr" | "pfm" => Ok(Kind::Linear),
+        other => Err(Error::usage(
+            format!("{}: no picture format {other:?}", path.display()),
+            "end the name in .png, .exr or .pfm",
+        )),
+    }
+}
+
 /// Checks extension and folder of a picture file.
 pub(super) fn check_picture(path: &Path) -> Result<Kind> {
-    let kind = match extension(path).as_str() {
-        "png" => Kind::Display,
-        "exr" | "pfm" => Kind::Linear,
-        other => {
-            return Err(Error::usage(
-                format!("{}: no picture format {other:?}", path.display()),
-                "end the name in .png, .exr or .pfm",
-            ));
-        }
-    };
+    let kind = kind(path)?;
     check_folder(path)?;
     Ok(kind)
 }

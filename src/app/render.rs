@@ -2,7 +2,7 @@
 
 use super::args::RenderOptions;
 use super::outputs::{
-    Kind, check_distinct, check_folder, check_frames, check_linear, check_picture, frame_path,
+    Kind, check_distinct, check_folder, check_frames, check_linear, check_picture, frame_path, kind,
 };
 use super::report::{self, Report};
 use super::{camera, in_scene, load_scene};
@@ -129,7 +129,7 @@ fn picture(
     let timings = frame.render(inputs)?;
     for output in outputs {
         let path = frame_path(output, index);
-        match check_picture(output)? {
+        match kind(output)? {
             Kind::Display => {
                 let pixels: Vec<[u8; 3]> = frame.ldr()?.iter().map(|&[r, g, b, _]| [r, g, b]).collect();
                 save_png8(&path, width, height, &pixels)?;
