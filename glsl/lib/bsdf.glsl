@@ -48,6 +48,36 @@ vec3 bsdf_eval_cos(Bsdf b, vec3 wi) {
     return principled_eval_cos(b.principled, wi);
 }
 
+// The lobes of one BSDF, each with a shape of its own: area lights are integrated lobe by lobe.
+const uint LOBE_DIFFUSE = 0u;   // all that is wide: Lambert, Oren–Nayar, retro-reflection, subsurface, sheen
+const uint LOBE_SPECULAR = 1u;  // Trowbridge–Reitz
+const uint LOBE_COAT = 2u;      // GTR1
+const uint LOBES = 3u;
+
+// Whether the model has that lobe; known when the pipeline is compiled.
+bool bsdf_has(uint lobe) {
+    if (lobe == LOBE_DIFFUSE) return MODEL != MODEL_METAL;
+    if (lobe == LOBE_SPECULAR) return MODEL != MODEL_MATTE;
+    return MODEL == MODEL_PRINCIPLED && LOBE_CLEARCOAT;
+}
+
+// One lobe's share of f(wo, wi) cosθi; `lobe` is a constant wherever this is called.
+vec3 bsdf_eval_lobe_cos(Bsdf b, vec3 wi, uint lobe) {
+    if (MODEL == MODEL_PLASTIC) {
+        return lobe == LOBE_DIFFUSE ? plastic_diffuse_cos(b.plastic, wi) : plastic_specular_cos(b.plastic, wi);
+    }
+    if (MODEL == MODEL_SUBSTRATE) {
+        return lobe == LOBE_DIFFUSE ? substrate_diffuse_cos(b.substrate, wi) : substrate_specular_cos(b.substrate, wi);
+    }
+    if (MODEL == MODEL_PRINCIPLED) {
+        PrincipledPair p = principled_pair(b.principled, wi);
+        if (lobe == LOBE_DIFFUSE) return principled_diffuse_cos(b.principled, p);
+        if (lobe == LOBE_SPECULAR) return principled_specular_cos(b.principled, p, wi);
+        return vec3(principled_coat_cos(b.principled, p));
+    }
+    return bsdf_eval_cos(b, wi);
+}
+
 // f(wo, wi), for tests and tables: every model's quotients contain cosθi, so dividing it out costs one ulp.
 vec3 bsdf_eval(Bsdf b, vec3 wi) {
     return bsdf_eval_cos(b, wi) / max(wi.z, MIN_COSINE);

@@ -25,11 +25,14 @@ Plastic plastic_setup(BsdfParameters p, vec3 wo) {
     return m;
 }
 
-vec3 plastic_eval_cos(Plastic m, vec3 wi) {
-    float cos_i = max(wi.z, 0.0);
+vec3 plastic_diffuse_cos(Plastic m, vec3 wi) { return m.diffuse * max(wi.z, 0.0); }
+
+vec3 plastic_specular_cos(Plastic m, vec3 wi) {
     HalfVector h = half_vector(m.wo, wi);
-    float lobe = ggx_distribution(m.ggx, h) * ggx_visibility_correlated(m.ggx, m.wo.z, cos_i, wi);
-    return m.diffuse * cos_i + m.specular * (lobe * fresnel_dielectric(m.eta2_minus_1, 0.25 * h.length2));
+    float lobe = ggx_distribution(m.ggx, h) * ggx_visibility_correlated(m.ggx, m.wo.z, max(wi.z, 0.0), wi);
+    return m.specular * (lobe * fresnel_dielectric(m.eta2_minus_1, 0.25 * h.length2));
 }
+
+vec3 plastic_eval_cos(Plastic m, vec3 wi) { return plastic_diffuse_cos(m, wi) + plastic_specular_cos(m, wi); }
 
 #endif

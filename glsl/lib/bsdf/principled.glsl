@@ -74,30 +74,46 @@ float principled_clearcoat(Principled m, HalfVector h, float cos_i, float schlic
     return m.coat * h.length2 / denominator * (CLEARCOAT_F0 + (1.0 - CLEARCOAT_F0) * schlick);
 }
 
-vec3 principled_eval_cos(Principled m, vec3 wi) {
-    float cos_i = max(wi.z, 0.0);
-    HalfVector h = half_vector(m.wo, wi);
-    float schlick = schlick_weight(m.wo, wi, 0.5 * sqrt(h.length2));
-    float fresnel_i = pow5(max(1.0 - cos_i, 0.0));
+// What all lobes share of a pair of directions.
+struct PrincipledPair {
+    HalfVector h;
+    float schlick;
+    float cos_i;
+};
 
-    // Diffuse and retro-reflection share color/π: (1 − FL/2)(1 − FV/2) + RR (FL + FV + FL FV (RR − 1)).
-    float rr = 0.5 * m.roughness * h.length2;
+PrincipledPair principled_pair(Principled m, vec3 wi) {
+    HalfVector h = half_vector(m.wo, wi);
+    return PrincipledPair(h, schlick_weight(m.wo, wi, 0.5 * sqrt(h.length2)), max(wi.z, 0.0));
+}
+
+// Diffuse and retro-reflection share color/π: (1 − FL/2)(1 − FV/2) + RR (FL + FV + FL FV (RR − 1)).
+vec3 principled_diffuse_cos(Principled m, PrincipledPair p) {
+    float fresnel_i = pow5(max(1.0 - p.cos_i, 0.0));
+    float rr = 0.5 * m.roughness * p.h.length2;
     float diffuse = (1.0 - 0.5 * fresnel_i) * (1.0 - 0.5 * m.fresnel_o) +
                     rr * (fresnel_i + m.fresnel_o * (1.0 + fresnel_i * (rr - 1.0)));
-    float lobe = ggx_distribution(m.ggx, h) * ggx_visibility_separable(m.ggx, cos_i, wi);
-    vec3 f_cos = m.diffuse * (cos_i * diffuse) + m.f0 * (lobe - lobe * schlick);
-    float white = m.f90 * (lobe * schlick);
-
+    vec3 f_cos = m.diffuse * (p.cos_i * diffuse);
     if (LOBE_SUBSURFACE) {
-        f_cos += m.subsurface * (cos_i * principled_subsurface(m, cos_i, fresnel_i, 0.5 * rr));
+        f_cos += m.subsurface * (p.cos_i * principled_subsurface(m, p.cos_i, fresnel_i, 0.5 * rr));
     }
     if (LOBE_SHEEN) {
-        f_cos += m.sheen * (cos_i * schlick);
+        f_cos += m.sheen * (p.cos_i * p.schlick);
     }
-    if (LOBE_CLEARCOAT) {
-        white += cos_i * principled_clearcoat(m, h, cos_i, schlick);
-    }
-    return f_cos + white;
+    return f_cos;
+}
+
+vec3 principled_specular_cos(Principled m, PrincipledPair p, vec3 wi) {
+    float lobe = ggx_distribution(m.ggx, p.h) * ggx_visibility_separable(m.ggx, p.cos_i, wi);
+    return m.f0 * (lobe - lobe * p.schlick) + m.f90 * (lobe * p.schlick);
+}
+
+float principled_coat_cos(Principled m, PrincipledPair p) {
+    return LOBE_CLEARCOAT ? p.cos_i * principled_clearcoat(m, p.h, p.cos_i, p.schlick) : 0.0;
+}
+
+vec3 principled_eval_cos(Principled m, vec3 wi) {
+    PrincipledPair p = principled_pair(m, wi);
+    return principled_diffuse_cos(m, p) + principled_specular_cos(m, p, wi) + principled_coat_cos(m, p);
 }
 
 #endif

@@ -28,14 +28,20 @@ Substrate substrate_setup(BsdfParameters p, vec3 wo) {
     return m;
 }
 
-// The coat is D F/(4 (wi·h) max(cosθi, cosθo)); cosθi/max(cosθi, cosθo) needs no division here.
-vec3 substrate_eval_cos(Substrate m, vec3 wi) {
+vec3 substrate_diffuse_cos(Substrate m, vec3 wi) {
     float cos_i = max(wi.z, 0.0);
+    return m.base * (cos_i * schlick_complement(0.5 * cos_i));
+}
+
+// The coat is D F/(4 (wi·h) max(cosθi, cosθo)); cosθi/max(cosθi, cosθo) needs no division here.
+vec3 substrate_specular_cos(Substrate m, vec3 wi) {
     HalfVector h = half_vector(m.wo, wi);
     float cosine = 0.5 * sqrt(h.length2);
-    float lobe = ggx_distribution(m.ggx, h) * min(cos_i * m.inv_cos_o, 1.0) / max(cosine, MIN_COSINE);
-    vec3 fresnel = m.coat + m.white * schlick_weight(m.wo, wi, cosine);
-    return m.base * (cos_i * schlick_complement(0.5 * cos_i)) + fresnel * lobe;
+    float cosines = min(max(wi.z, 0.0) * m.inv_cos_o, 1.0);
+    float lobe = ggx_distribution(m.ggx, h) * cosines / max(cosine, MIN_COSINE);
+    return (m.coat + m.white * schlick_weight(m.wo, wi, cosine)) * lobe;
 }
+
+vec3 substrate_eval_cos(Substrate m, vec3 wi) { return substrate_diffuse_cos(m, wi) + substrate_specular_cos(m, wi); }
 
 #endif

@@ -1,0 +1,165 @@
+// What one area light adds to a pixel, lobe by lobe, each by the cheapest estimator that is exact enough:
+//
+//   a light small against the lobe   cubature at points of the light's surface, which come with it
+//   Lambert                          the closed form of the form factor
+//   any other                        quadrature in the lobe's own coordinates (lib/area/quadrature.glsl)
+#ifndef DIRECT_ESTIMATE_GLSL
+#define DIRECT_ESTIMATE_GLSL
+
+#include "lib/area/form_factor.glsl"
+#include "lib/area/line.glsl"
+#include "lib/area/outline.glsl"
+#include "lib/area/quadrature.glsl"
+#include "direct/receiver.glsl"
+#include "direct/source.glsl"
+#include "direct/pick.glsl"
+
+// Between these ratios of a light's size to a lobe's width the cubature gives way; below the first of all, four points do.
+const float POINT = 0.3;
+const float SMALL = 1.0;
+const float LARGE = 1.5;
+
+const bool LAMBERT = MODEL == MODEL_PLASTIC || (MODEL == MODEL_MATTE && !ROUGH_MATTE);
+
+// A light's share of each lobe, and the direction from which one ray asks how much of it arrives.
+struct Estimate {
+    vec3 lobes[LOBES];
+    Pick picks[LOBES];
+};
+
+vec3 lobe_by_quadrature(Receiver r, Source source, Outline outline, Proxy proxy, uint lobe) {
+    Seen seen = outline_seen(outline, proxy);
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < seen.azimuths.panels * seen.nodes; ++k) {
+        vec2 azimuth = outline_azimuth(outline, seen, k);
+        vec2 e = vec2(cos(azimuth.x), sin(azimuth.x));
+        vec2 interval = outline_interval(outline, seen, proxy, e);
+        if (!(interval.y > interval.x)) continue;
+        for (uint j = 0u; j < RADIAL; ++j) {
+            vec2 radial = gauss(RADIAL, j);
+            ConePoint point = cone_point(proxy, e, interval, radial.x, radial.y * azimuth.y);
+            vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
+            if (LIGHT_TEXTURES && source.light.textured) f_cos *= source_texture(source, point.wi, point.weight);
+            sum += point.weight * f_cos;
+        }
+    }
+    return sum;
+}
+
+void lobe_over(inout Estimate sum, Receiver r, Source source, Outline outline, Proxy proxy, float share, uint lobe) {
+    bool closed = lobe == LOBE_DIFFUSE && LAMBERT && !(LIGHT_TEXTURES && source.light.textured);
+    if (share > 0.0 && !closed) sum.lobes[lobe] += share * lobe_by_quadrature(r, source, outline, proxy, lobe);
+    if (SHADOWS) pick_over(sum.picks[lobe], r, source, outline, proxy, lobe);
+}
+
+// One convex piece of the light.
+void over_outline(inout Estimate sum, Receiver r, Source source, Outline outline, vec3 share) {
+    if (bsdf_has(LOBE_DIFFUSE)) lobe_over(sum, r, source, outline, r.diffuse.proxy, share.x, LOBE_DIFFUSE);
+    if (bsdf_has(LOBE_SPECULAR)) lobe_over(sum, r, source, outline, r.specular.proxy, share.y, LOBE_SPECULAR);
+    if (bsdf_has(LOBE_COAT)) lobe_over(sum, r, source, outline, r.coat.proxy, share.z, LOBE_COAT);
+}
+
+void by_cubature(inout Estimate sum, Receiver r, Source source, vec3 share) {
+    bool coarse = source.size < POINT * r.narrowest;
+    uint first = coarse ? source.light.coarse_first : source.light.fine_first;
+    uint count = coarse ? source.light.coarse_count : source.light.fine_count;
+    for (uint i = first; i < first + count; ++i) {
+        AreaPoint point = area_point(i);
+        vec3 p = source_point(r.surface, point.position);
+        float d2 = max(dot(p, p), TINY);
+        vec3 wi = p * inversesqrt(d2);
+        vec3 weight = point.radiance * (point.weight * source_projection(source, wi) / d2);
+        for (uint lobe = 0u; lobe < LOBES; ++lobe) {
+            if (bsdf_has(lobe)) sum.lobes[lobe] += share[lobe] * weight * bsdf_eval_lobe_cos(r.surface.bsdf, wi, lobe);
+        }
+    }
+}
+
+void over_polygon(inout Estimate sum, Receiver r, Source source, vec3 share) {
+    uint end = source.light.piece_first + source.light.piece_count;
+    uint i = source.light.piece_first;
+    while (i < end) {
+        Cone cone = cone_begin();
+        vec4 vertex = area_vertex(i++);
+        vec3 first = source_point(r.surface, vertex.xyz);
+        vec3 a = first;
+        // A vertex with w = 1 is its ring's last.
+        while (vertex.w == 0.0 && i < end) {
+            vertex = area_vertex(i++);
+            vec3 b = source_point(r.surface, vertex.xyz);
+            cone_edge(cone, a, b);
+            a = b;
+        }
+        cone_edge(cone, a, first);
+        cone_close(cone, source.front ? -1.0 : 1.0);
+        if (cone.count > 2u) over_outline(sum, r, source, outline_polygon(cone), share);
+    }
+}
+
+float polygon_form_factor(Surface surface, AreaLight light) {
+    FormFactor sum = form_factor_begin();
+    uint end = light.ring_first + light.ring_count;
+    uint i = light.ring_first;
+    while (i < end) {
+        vec4 vertex = area_vertex(i++);
+        vec3 first = source_point(surface, vertex.xyz);
+        vec3 a = first;
+        while (vertex.w == 0.0 && i < end) {
+            vertex = area_vertex(i++);
+            vec3 b = source_point(surface, vertex.xyz);
+            form_factor_edge(sum, a, b);
+            a = b;
+        }
+        form_factor_edge(sum, a, first);
+        form_factor_close_ring(sum);
+    }
+    return abs(form_factor_end(sum));
+}
+
+float source_form_factor(Receiver r, Source source) {
+    AreaLight light = source.light;
+    if (LIGHT_ELLIPSES && light.kind == AREA_ELLIPSE) return ellipse_form_factor(source.center, source.u, source.v);
+    if (LIGHT_LINES && light.kind == AREA_LINE) return line_form_factor(source.center, source.u, light.radius);
+    return LIGHT_POLYGONS ? polygon_form_factor(r.surface, light) : 0.0;
+}
+
+void over_shape(inout Estimate sum, Receiver r, Source source, vec3 share) {
+    if (LIGHT_ELLIPSES && source.light.kind == AREA_ELLIPSE) {
+        over_outline(sum, r, source, outline_ellipse(source.center, source.u, source.v), share);
+    } else if (LIGHT_LINES && source.light.kind == AREA_LINE) {
+        Outline outline = outline_line(source.center, source.u, source.light.radius);
+        if (outline.cone.count > 2u) over_outline(sum, r, source, outline, share);
+    } else if (LIGHT_POLYGONS) {
+        over_polygon(sum, r, source, share);
+    }
+}
+
+// Radiance towards the viewer from one area light.
+vec3 area_reflected(Receiver r, uint index) {
+    Source source = source_of(area_light(index), r.surface);
+    if (!source_shines(source)) return vec3(0.0);
+    vec3 width = vec3(r.diffuse.width, r.specular.width, r.coat.width);
+    vec3 share = smoothstep(vec3(SMALL), vec3(LARGE), source.size / width);
+    Estimate sum;
+    for (uint lobe = 0u; lobe < LOBES; ++lobe) {
+        sum.lobes[lobe] = vec3(0.0);
+        if (SHADOWS) sum.picks[lobe] = pick_begin(index, lobe);
+    }
+    if (any(lessThan(share, vec3(1.0)))) by_cubature(sum, r, source, 1.0 - share);
+    bool closed = LAMBERT && !(LIGHT_TEXTURES && source.light.textured);
+    if (closed && share.x > 0.0) {
+        vec3 albedo = PI * bsdf_eval_lobe_cos(r.surface.bsdf, vec3(0.0, 0.0, 1.0), LOBE_DIFFUSE);
+        sum.lobes[LOBE_DIFFUSE] += (share.x * source_form_factor(r, source)) * albedo;
+    }
+    bool all_closed = closed && MODEL == MODEL_MATTE;
+    if (SHADOWS || (!all_closed && any(greaterThan(share, vec3(0.0))))) over_shape(sum, r, source, share);
+    vec3 reflected = vec3(0.0);
+    for (uint lobe = 0u; lobe < LOBES; ++lobe) {
+        if (!bsdf_has(lobe)) continue;
+        float visible = SHADOWS ? pick_visibility(sum.picks[lobe], r.surface, source) : 1.0;
+        reflected += visible * sum.lobes[lobe];
+    }
+    return reflected * source.light.radiance;
+}
+
+#endif

@@ -1,0 +1,62 @@
+// A surface ready for area lights: its lobes in coordinates of their own.
+#ifndef DIRECT_RECEIVER_GLSL
+#define DIRECT_RECEIVER_GLSL
+
+#include "bind/ltc.glsl"
+#include "bind/surface.glsl"
+#include "lib/area/proxy.glsl"
+
+// A lobe's coordinates, and how wide it is where it is narrowest, as the tangent of an angle.
+struct Lobe {
+    Proxy proxy;
+    float width;
+};
+
+struct Receiver {
+    Surface surface;
+    Lobe diffuse;
+    Lobe specular;
+    Lobe coat;
+    float narrowest;
+};
+
+// Below this cosine the tables' matrices are nearly singular; the quadrature needs no exact fit.
+const float LEAST_COSINE = 0.01;
+
+// A lobe's width across the plane of incidence is alpha, along it alpha cosθo: between the two.
+float lobe_width(float alpha, float cos_o) { return alpha * sqrt(cos_o); }
+
+Lobe specular_lobe(vec2 alpha, vec3 wo, float cos_o) {
+    float mean = ANISOTROPIC ? sqrt(alpha.x * alpha.y) : alpha.x;
+    vec4 shape = ltc_at(LTC_SPECULAR, sqrt(mean), cos_o).shape;
+    Proxy proxy = proxy_of_microfacets(shape, 2.0 * mean, wo);
+    if (ANISOTROPIC) proxy = proxy_anisotropic(proxy, alpha, wo);
+    return Lobe(proxy, lobe_width(ANISOTROPIC ? min(alpha.x, alpha.y) : alpha.x, cos_o));
+}
+
+// GTR1's tails make its best cosine √alpha wide, its peak alpha.
+Lobe coat_lobe(float alpha, vec3 wo, float cos_o) {
+    vec4 shape = ltc_at(LTC_COAT, sqrt(alpha), cos_o).shape;
+    return Lobe(proxy_of_microfacets(shape, sqrt(alpha), wo), lobe_width(alpha, cos_o));
+}
+
+Receiver receiver_here() {
+    Receiver r;
+    r.surface = surface_here();
+    vec3 wo = view_direction() * r.surface.world_from_local;
+    float cos_o = max(wo.z, LEAST_COSINE);
+    BsdfParameters p = surface_parameters();
+    r.diffuse = Lobe(proxy_of_cosine(), 1.0);
+    r.narrowest = 1.0;
+    if (bsdf_has(LOBE_SPECULAR)) {
+        r.specular = specular_lobe(vec2(p.alpha_x, p.alpha_y), wo, cos_o);
+        r.narrowest = min(r.narrowest, r.specular.width);
+    }
+    if (bsdf_has(LOBE_COAT)) {
+        r.coat = coat_lobe(lerp(0.1, 0.001, p.clearcoat_gloss), wo, cos_o);
+        r.narrowest = min(r.narrowest, r.coat.width);
+    }
+    return r;
+}
+
+#endif

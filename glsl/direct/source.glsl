@@ -1,0 +1,66 @@
+// An area light as the shaded point has it: in its local coordinates.
+#ifndef DIRECT_SOURCE_GLSL
+#define DIRECT_SOURCE_GLSL
+
+#include "bind/area_lights.glsl"
+
+struct Source {
+    AreaLight light;
+    vec3 center;  // a line's first end
+    vec3 u;       // half axes; a line's whole axis
+    vec3 v;
+    vec3 normal;
+    bool front;
+    float size;   // radius over distance
+    float above;  // highest point over the horizon, at most
+};
+
+vec3 source_point(Surface surface, vec3 world) { return (world - surface.position) * surface.world_from_local; }
+
+Source source_of(AreaLight light, Surface surface) {
+    Source source;
+    source.light = light;
+    source.center = source_point(surface, light.center);
+    source.u = light.u * surface.world_from_local;
+    source.v = light.v * surface.world_from_local;
+    source.normal = light.normal * surface.world_from_local;
+    bool line = LIGHT_LINES && light.kind == AREA_LINE;
+    vec3 middle = line ? source.center + 0.5 * source.u : source.center;
+    source.front = line || dot(source.normal, source.center) < 0.0;
+    source.size = light.extent * inversesqrt(max(dot(middle, middle), TINY));
+    source.above = middle.z + light.extent;
+    return source;
+}
+
+bool source_shines(Source source) {
+    return source.above > 0.0 && (source.front || (LIGHT_TWO_SIDED && source.light.two_sided));
+}
+
+// Area as seen from direction wi, per area; of a line, per length.
+float source_projection(Source source, vec3 wi) {
+    if (LIGHT_LINES && source.light.kind == AREA_LINE) {
+        vec3 across = cross(wi, source.u);
+        return 2.0 * source.light.radius * sqrt(dot(across, across) / max(dot(source.u, source.u), TINY));
+    }
+    return abs(dot(source.normal, wi));
+}
+
+// Texture where direction wi meets the light's plane, filtered over a solid angle.
+vec3 source_texture(Source source, vec3 wi, float solid_angle) {
+    float cosine = max(abs(dot(source.normal, wi)), 1e-6);
+    float distance = abs(dot(source.normal, source.center)) / cosine;
+    vec3 p = distance * wi - source.center;
+    vec3 across_v = cross(source.v, source.normal);
+    vec3 across_u = cross(source.u, source.normal);
+    float span = dot(source.u, across_v);  // |u × v|, signed
+    vec3 st = vec3(dot(p, across_v) / span, -dot(p, across_u) / span, 1.0);
+    AreaLight light = source.light;
+    vec2 uv = vec2(dot(light.uv_s, st), dot(light.uv_t, st));
+    // Solid angle to area, to area in (s, t), to texels.
+    float area = solid_angle * sqr(distance) / (cosine * max(abs(span), TINY));
+    float stretch = abs(light.uv_s.x * light.uv_t.y - light.uv_s.y * light.uv_t.x);
+    float texels = area * stretch * float(light.texture_size.x * light.texture_size.y);
+    return area_texel(light, uv, 0.5 * log2(max(texels, 1.0)));
+}
+
+#endif
