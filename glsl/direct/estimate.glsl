@@ -1,23 +1,22 @@
 // What one area light adds to a pixel, lobe by lobe, each by the cheapest estimator that is exact enough:
 //
 //   a light small against the lobe   cubature at points of the light's surface, which come with it
-//   Lambert                          the closed form of the form factor
+//   Lambert                          the form factor
 //   any other                        quadrature in the lobe's own coordinates (lib/area/quadrature.glsl)
 #ifndef DIRECT_ESTIMATE_GLSL
 #define DIRECT_ESTIMATE_GLSL
 
-#include "lib/area/form_factor.glsl"
-#include "lib/area/line.glsl"
-#include "lib/area/outline.glsl"
-#include "lib/area/quadrature.glsl"
 #include "direct/receiver.glsl"
 #include "direct/source.glsl"
+#include "lib/area/outline.glsl"
+#include "lib/area/quadrature.glsl"
 #include "direct/pick.glsl"
 
 // Between these ratios of a light's size to a lobe's width the cubature gives way; below the first of all, four points do.
 const float POINT = 0.3;
 const float SMALL = 1.0;
 const float LARGE = 1.5;
+const float CUT = 30.0;
 
 const bool LAMBERT = MODEL == MODEL_PLASTIC || (MODEL == MODEL_MATTE && !ROUGH_MATTE);
 
@@ -39,16 +38,26 @@ vec3 lobe_by_quadrature(Receiver r, Source source, Outline outline, Proxy proxy,
             vec2 radial = gauss(RADIAL, j);
             ConePoint point = cone_point(proxy, e, interval, radial.x, radial.y * azimuth.y);
             vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
-            if (LIGHT_TEXTURES && source.light.textured) f_cos *= source_texture(source, point.wi, point.weight);
+            if (TEXTURED_LIGHTS && source.light.textured) f_cos *= source_texture(source, point.wi, point.weight);
             sum += point.weight * f_cos;
         }
     }
     return sum;
 }
 
+// A uniform light on a Lambertian lobe.
+vec3 by_form_factor(Receiver r, Source source, Outline outline) {
+    vec3 albedo = PI * bsdf_eval_lobe_cos(r.surface.bsdf, vec3(0.0, 0.0, 1.0), LOBE_DIFFUSE);
+    return outline_form_factor(outline, r.diffuse.proxy) * albedo;
+}
+
 void lobe_over(inout Estimate sum, Receiver r, Source source, Outline outline, Proxy proxy, float share, uint lobe) {
-    bool closed = lobe == LOBE_DIFFUSE && LAMBERT && !(LIGHT_TEXTURES && source.light.textured);
-    if (share > 0.0 && !closed) sum.lobes[lobe] += share * lobe_by_quadrature(r, source, outline, proxy, lobe);
+    if (share > 0.0) {
+        bool closed = lobe == LOBE_DIFFUSE && LAMBERT && !(TEXTURED_LIGHTS && source.light.textured);
+        vec3 value = closed ? by_form_factor(r, source, outline)
+                            : lobe_by_quadrature(r, source, outline, proxy, lobe);
+        sum.lobes[lobe] += share * source.light.radiance * value;
+    }
     if (SHADOWS) pick_over(sum.picks[lobe], r, source, outline, proxy, lobe);
 }
 
@@ -64,11 +73,15 @@ void by_cubature(inout Estimate sum, Receiver r, Source source, vec3 share) {
     uint first = coarse ? source.light.coarse_first : source.light.fine_first;
     uint count = coarse ? source.light.coarse_count : source.light.fine_count;
     for (uint i = first; i < first + count; ++i) {
-        AreaPoint point = area_point(i);
-        vec3 p = source_point(r.surface, point.position);
+        vec3 position;
+        vec3 radiance;
+        float area;
+        area_point(i, position, area, radiance);
+        vec3 p = source_point(r.surface, position);
         float d2 = max(dot(p, p), TINY);
         vec3 wi = p * inversesqrt(d2);
-        vec3 weight = point.radiance * (point.weight * source_projection(source, wi) / d2);
+        float projected = area * source_projection(source, wi) / d2;
+        vec3 weight = projected * (TEXTURED_LIGHTS ? radiance : source.light.radiance);
         for (uint lobe = 0u; lobe < LOBES; ++lobe) {
             if (bsdf_has(lobe)) sum.lobes[lobe] += share[lobe] * weight * bsdf_eval_lobe_cos(r.surface.bsdf, wi, lobe);
         }
@@ -96,40 +109,13 @@ void over_polygon(inout Estimate sum, Receiver r, Source source, vec3 share) {
     }
 }
 
-float polygon_form_factor(Surface surface, AreaLight light) {
-    FormFactor sum = form_factor_begin();
-    uint end = light.ring_first + light.ring_count;
-    uint i = light.ring_first;
-    while (i < end) {
-        vec4 vertex = area_vertex(i++);
-        vec3 first = source_point(surface, vertex.xyz);
-        vec3 a = first;
-        while (vertex.w == 0.0 && i < end) {
-            vertex = area_vertex(i++);
-            vec3 b = source_point(surface, vertex.xyz);
-            form_factor_edge(sum, a, b);
-            a = b;
-        }
-        form_factor_edge(sum, a, first);
-        form_factor_close_ring(sum);
-    }
-    return abs(form_factor_end(sum));
-}
-
-float source_form_factor(Receiver r, Source source) {
-    AreaLight light = source.light;
-    if (LIGHT_ELLIPSES && light.kind == AREA_ELLIPSE) return ellipse_form_factor(source.center, source.u, source.v);
-    if (LIGHT_LINES && light.kind == AREA_LINE) return line_form_factor(source.center, source.u, light.radius);
-    return LIGHT_POLYGONS ? polygon_form_factor(r.surface, light) : 0.0;
-}
-
 void over_shape(inout Estimate sum, Receiver r, Source source, vec3 share) {
-    if (LIGHT_ELLIPSES && source.light.kind == AREA_ELLIPSE) {
+    if (ELLIPSES && source.light.kind == AREA_ELLIPSE) {
         over_outline(sum, r, source, outline_ellipse(source.center, source.u, source.v), share);
-    } else if (LIGHT_LINES && source.light.kind == AREA_LINE) {
+    } else if (LINES && source.light.kind == AREA_LINE) {
         Outline outline = outline_line(source.center, source.u, source.light.radius);
         if (outline.cone.count > 2u) over_outline(sum, r, source, outline, share);
-    } else if (LIGHT_POLYGONS) {
+    } else if (POLYGONS) {
         over_polygon(sum, r, source, share);
     }
 }
@@ -138,28 +124,23 @@ void over_shape(inout Estimate sum, Receiver r, Source source, vec3 share) {
 vec3 area_reflected(Receiver r, uint index) {
     Source source = source_of(area_light(index), r.surface);
     if (!source_shines(source)) return vec3(0.0);
-    vec3 width = vec3(r.diffuse.width, r.specular.width, r.coat.width);
-    vec3 share = smoothstep(vec3(SMALL), vec3(LARGE), source.size / width);
+    vec3 ratio = source.size / vec3(r.diffuse.width, r.specular.width, r.coat.width);
+    // Points count the part above the horizon in sixteenths; the outline is cut there.
+    if (source.cut) ratio *= CUT;
+    vec3 share = smoothstep(vec3(SMALL), vec3(LARGE), ratio);
     Estimate sum;
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {
         sum.lobes[lobe] = vec3(0.0);
         if (SHADOWS) sum.picks[lobe] = pick_begin(index, lobe);
     }
     if (any(lessThan(share, vec3(1.0)))) by_cubature(sum, r, source, 1.0 - share);
-    bool closed = LAMBERT && !(LIGHT_TEXTURES && source.light.textured);
-    if (closed && share.x > 0.0) {
-        vec3 albedo = PI * bsdf_eval_lobe_cos(r.surface.bsdf, vec3(0.0, 0.0, 1.0), LOBE_DIFFUSE);
-        sum.lobes[LOBE_DIFFUSE] += (share.x * source_form_factor(r, source)) * albedo;
-    }
-    bool all_closed = closed && MODEL == MODEL_MATTE;
-    if (SHADOWS || (!all_closed && any(greaterThan(share, vec3(0.0))))) over_shape(sum, r, source, share);
+    if (SHADOWS || any(greaterThan(share, vec3(0.0)))) over_shape(sum, r, source, share);
     vec3 reflected = vec3(0.0);
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {
         if (!bsdf_has(lobe)) continue;
-        float visible = SHADOWS ? pick_visibility(sum.picks[lobe], r.surface, source) : 1.0;
-        reflected += visible * sum.lobes[lobe];
+        reflected += sum.lobes[lobe] * (SHADOWS ? pick_visibility(sum.picks[lobe], r.surface, source) : 1.0);
     }
-    return reflected * source.light.radiance;
+    return reflected;
 }
 
 #endif

@@ -48,7 +48,7 @@ void pick_over(inout Pick pick, Receiver r, Source source, Outline outline, Prox
         float along = fract(pick.xi.y + float(k) * 0.618034);
         ConePoint point = cone_point(proxy, e, interval, along, extent / float(CANDIDATES));
         vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
-        if (LIGHT_TEXTURES && source.light.textured) f_cos *= source_texture(source, point.wi, point.weight);
+        if (TEXTURED_LIGHTS && source.light.textured) f_cos *= source_texture(source, point.wi, point.weight);
         pick_offer(pick, point.wi, luminance(f_cos) * point.weight);
     }
 }

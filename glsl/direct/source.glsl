@@ -4,6 +4,13 @@
 
 #include "bind/area_lights.glsl"
 
+layout(constant_id = 32) const bool POLYGONS = true;
+layout(constant_id = 33) const bool ELLIPSES = true;
+layout(constant_id = 34) const bool LINES = true;
+layout(constant_id = 35) const bool TEXTURED_LIGHTS = true;
+layout(constant_id = 36) const bool TWO_SIDED_LIGHTS = true;
+layout(constant_id = 38) const bool SHADOWS = false;
+
 struct Source {
     AreaLight light;
     vec3 center;  // a line's first end
@@ -12,7 +19,8 @@ struct Source {
     vec3 normal;
     bool front;
     float size;   // radius over distance
-    float above;  // highest point over the horizon, at most
+    bool lit;     // some of it may be above the horizon
+    bool cut;     // some of it may be below
 };
 
 vec3 source_point(Surface surface, vec3 world) { return (world - surface.position) * surface.world_from_local; }
@@ -24,31 +32,44 @@ Source source_of(AreaLight light, Surface surface) {
     source.u = light.u * surface.world_from_local;
     source.v = light.v * surface.world_from_local;
     source.normal = light.normal * surface.world_from_local;
-    bool line = LIGHT_LINES && light.kind == AREA_LINE;
-    vec3 middle = line ? source.center + 0.5 * source.u : source.center;
+    bool line = LINES && light.kind == AREA_LINE;
+    vec3 middle = source_point(surface, area_middle(light));
     source.front = line || dot(source.normal, source.center) < 0.0;
     source.size = light.extent * inversesqrt(max(dot(middle, middle), TINY));
-    source.above = middle.z + light.extent;
+    source.lit = middle.z > -light.extent;
+    source.cut = middle.z < light.extent;
     return source;
 }
 
 bool source_shines(Source source) {
-    return source.above > 0.0 && (source.front || (LIGHT_TWO_SIDED && source.light.two_sided));
+    return source.lit && (source.front || (TWO_SIDED_LIGHTS && source.light.two_sided));
 }
 
 // Area as seen from direction wi, per area; of a line, per length.
 float source_projection(Source source, vec3 wi) {
-    if (LIGHT_LINES && source.light.kind == AREA_LINE) {
+    if (LINES && source.light.kind == AREA_LINE) {
         vec3 across = cross(wi, source.u);
         return 2.0 * source.light.radius * sqrt(dot(across, across) / max(dot(source.u, source.u), TINY));
     }
     return abs(dot(source.normal, wi));
 }
 
+// Distance at which a ray along wi meets the light; a line's, its axis less the radius.
+float source_distance(Source source, vec3 wi) {
+    if (LINES && source.light.kind == AREA_LINE) {
+        float along2 = max(dot(source.u, source.u), TINY);
+        vec3 across = wi - source.u * (dot(wi, source.u) / along2);
+        float t = dot(source.center, across) / max(dot(across, across), TINY);
+        return t - source.light.radius * inversesqrt(max(dot(across, across), TINY));
+    }
+    float cosine = abs(dot(source.normal, wi));
+    return abs(dot(source.normal, source.center)) / max(cosine, 1e-6);
+}
+
 // Texture where direction wi meets the light's plane, filtered over a solid angle.
 vec3 source_texture(Source source, vec3 wi, float solid_angle) {
     float cosine = max(abs(dot(source.normal, wi)), 1e-6);
-    float distance = abs(dot(source.normal, source.center)) / cosine;
+    float distance = source_distance(source, wi);
     vec3 p = distance * wi - source.center;
     vec3 across_v = cross(source.v, source.normal);
     vec3 across_u = cross(source.u, source.normal);
@@ -59,7 +80,7 @@ vec3 source_texture(Source source, vec3 wi, float solid_angle) {
     // Solid angle to area, to area in (s, t), to texels.
     float area = solid_angle * sqr(distance) / (cosine * max(abs(span), TINY));
     float stretch = abs(light.uv_s.x * light.uv_t.y - light.uv_s.y * light.uv_t.x);
-    float texels = area * stretch * float(light.texture_size.x * light.texture_size.y);
+    float texels = area * stretch * float(light.width * light.height);
     return area_texel(light, uv, 0.5 * log2(max(texels, 1.0)));
 }
 

@@ -71,7 +71,7 @@ Azimuths ellipse_range(EllipseCone ellipse) {
 
 Seen outline_seen(Outline outline, Proxy proxy) {
     Seen seen;
-    if (LIGHT_ELLIPSES && outline.elliptic) {
+    if (ELLIPSES && outline.elliptic) {
         mat3 q = proxy.q_from_local;
         seen.ellipse = ellipse_cone(q * outline.center, q * outline.half_a, q * outline.half_b);
         seen.azimuths = ellipse_range(seen.ellipse);
@@ -90,7 +90,7 @@ vec2 outline_azimuth(Outline outline, Seen seen, uint k) {
     float begin = seen.azimuths.edges[panel];
     float extent = seen.azimuths.edges[panel + 1u] - begin;
     vec2 node = gauss(seen.nodes, k - panel * seen.nodes);
-    if (LIGHT_ELLIPSES && outline.elliptic) {
+    if (ELLIPSES && outline.elliptic) {
         // All around, equal steps of a periodic function; else what grows as a root at both ends is smooth in x.
         float x = PI * node.x;
         node = seen.azimuths.circle ? vec2((float(k) + 0.5) / 12.0, 1.0 / 12.0)
@@ -102,11 +102,24 @@ vec2 outline_azimuth(Outline outline, Seen seen, uint k) {
 // As `cone_interval`.
 vec2 outline_interval(Outline outline, Seen seen, Proxy proxy, vec2 e) {
     vec2 interval = cone_interval(outline.cone, proxy, e);
-    if (LIGHT_ELLIPSES && outline.elliptic) {
+    if (ELLIPSES && outline.elliptic) {
         vec2 inside = ellipse_interval(seen.ellipse, e);
         interval = vec2(max(interval.x, inside.x), min(interval.y, inside.y));
     }
     return interval;
+}
+
+// Irradiance of a uniform light over π times its radiance, in the space of a proxy: exact along θ.
+float outline_form_factor(Outline outline, Proxy proxy) {
+    Seen seen = outline_seen(outline, proxy);
+    float sum = 0.0;
+    for (uint k = 0u; k < seen.azimuths.panels * seen.nodes; ++k) {
+        vec2 azimuth = outline_azimuth(outline, seen, k);
+        vec2 e = vec2(cos(azimuth.x), sin(azimuth.x));
+        vec2 interval = max(outline_interval(outline, seen, proxy, e), 0.0);
+        sum += azimuth.y * max((interval.y - interval.x) * (interval.y + interval.x), 0.0);
+    }
+    return 0.5 * INV_PI * sum;
 }
 
 #endif
