@@ -47,6 +47,18 @@ shared! {
         LEAF_LIGHTS = 32;
         /// Bits of a leaf's light count in `LightNode::lights`.
         LEAF_COUNT_BITS = 6;
+        /// log2 of the texels across a layer of the occluders' texture.
+        BVH_WIDTH_LOG2 = 11;
+        /// log2 of the rows of such a layer.
+        BVH_HEIGHT_LOG2 = 11;
+        /// Texels of a node.
+        BVH_NODE_TEXELS = 2;
+        /// Texels of a triangle.
+        BVH_TRIANGLE_TEXELS = 3;
+        /// Triangles of a leaf at most.
+        BVH_LEAF = 4;
+        /// Bits of a leaf's triangle count in `BvhNode::triangles`.
+        BVH_COUNT_BITS = 3;
         /// Texture slots of a material.
         MATERIAL_TEXTURES = 8;
         /// A parameter without a texture.
@@ -130,6 +142,9 @@ shared! {
             SCENE_LIGHTS = 0: Sampled;
             /// [`LightNode`](super::LightNode)s in depth-first order, two texels each.
             SCENE_LIGHT_NODES = 1: Sampled;
+            /// What hides lights: [`BvhNode`](super::BvhNode)s in depth-first order from texel 0, then
+            /// [`BvhTriangle`](super::BvhTriangle)s, [`MaskedTriangle`](super::MaskedTriangle)s and masks.
+            SCENE_BVH = 2: Sampled;
         }
         /// A material: its textures and constants.
         material = 2 {
@@ -256,6 +271,59 @@ shared! {
             upper: vec3;
             /// Leaf: first light << LEAF_COUNT_BITS | count; inner node: 0.
             lights: uint;
+        }
+        /// A node over occluding triangles.
+        BvhNode {
+            /// Lower corner.
+            lower: vec3;
+            /// Next node where this one is missed; of the first node: how many there are.
+            skip: uint;
+            /// Upper corner.
+            upper: vec3;
+            /// Leaf: texel of the first triangle << BVH_COUNT_BITS | count; inner node: 0.
+            triangles: uint;
+        }
+        /// An occluding triangle.
+        BvhTriangle {
+            /// First corner.
+            a: vec3;
+            /// Texel of its [`MaskedTriangle`]; 0: no mask.
+            masked: uint;
+            /// Second corner.
+            b: vec3;
+            /// Mesh, for captures; a luminaire's follow the scene's.
+            mesh: uint;
+            /// Third corner.
+            c: vec3;
+            /// Triangle of the mesh, for captures.
+            triangle: uint;
+        }
+        /// How a mask cuts a triangle.
+        MaskedTriangle {
+            /// Texture coordinates of two corners.
+            uv_ab: vec4;
+            /// Of the third.
+            uv_c: vec2;
+            /// First word of the mask, which has one for each texel: it and its right, lower and lower right neighbours
+            /// as bytes.
+            words: uint;
+            /// Texels across and down, 16 bits each.
+            size: uint;
+        }
+        /// A row of the occlusion probe.
+        RayProbeRow {
+            /// Start.
+            origin: vec3;
+            /// Distances between which something is in the way.
+            t_min: float;
+            /// Unit.
+            direction: vec3;
+            /// Greatest.
+            t_max: float;
+            /// Unit geometric normal along which the start is moved.
+            normal: vec3;
+            /// Scale of that move; 0: none.
+            scale: float;
         }
         /// A material's constants; rows by `Parameter`, and one to fill the 256 bytes to which uniform buffers may have
         /// to be aligned.
