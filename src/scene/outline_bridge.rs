@@ -26,8 +26,8 @@ pub(super) fn bridged(places: &[DVec2], mut outline: Vec<usize>, mut holes: Vec<
     };
     holes.sort_by(|a, b| places[rightmost(a).1].x.total_cmp(&places[rightmost(b).1].x));
     while let Some(hole) = holes.last() {
-        let (start, corner) = rightmost(hole);
-        let at = nearest(places, &outline, &holes, corner);
+        let (start, _) = rightmost(hole);
+        let at = nearest(places, &outline, &holes, start);
         let around = hole.iter().cycle().skip(start).take(hole.len() + 1).copied();
         let bridge: Vec<_> = around.chain([outline[at]]).collect();
         outline.splice(at + 1..at + 1, bridge);
@@ -44,26 +44,28 @@ fn edges(indices: &[usize]) -> impl Iterator<Item = [usize; 2]> + '_ {
     indices.iter().copied().zip(indices.iter().copied().cycle().skip(1)).map(|(a, b)| [a, b])
 }
 
-/// The position in the outline that the shortest free bridge joins with `corner`.
-fn nearest(places: &[DVec2], outline: &[usize], holes: &[Vec<usize>], corner: usize) -> usize {
-    let from = places[corner];
+/// The position in the outline that the shortest free bridge joins with corner `start` of the last hole.
+fn nearest(places: &[DVec2], outline: &[usize], holes: &[Vec<usize>], start: usize) -> usize {
+    let hole = holes.last().map_or(outline, Vec::as_slice);
+    let from = places[hole[start]];
     let mut order: Vec<_> = (0..outline.len()).collect();
     let distance = |at: usize| places[outline[at]].distance_squared(from);
     order.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)));
     let walls: Vec<_> =
         std::iter::once(outline).chain(holes.iter().map(Vec::as_slice)).flat_map(edges).collect();
     let free = |&&at: &&usize| {
-        let bridge = [from, places[outline[at]]];
-        let crossed = walls.iter().any(|&[a, b]| cross(bridge, [places[a], places[b]]));
-        !crossed && inside(places, outline, at, from)
+        let to = places[outline[at]];
+        let blocked = walls.iter().any(|&[a, b]| blocks([places[a], places[b]], [from, to]));
+        !blocked && inside(places, outline, at, from) && inside(places, hole, start, to)
     };
     order.iter().find(free).copied().unwrap_or(order[0])
 }
 
-/// Whether two segments properly cross: touching does not count.
-fn cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
+/// Whether a wall properly crosses a bridge, or begins on it.
+fn blocks([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let side = |a: DVec2, b: DVec2, p: DVec2| (b - a).perp_dot(p - a);
-    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+    let begins = side(c, d, a) == 0.0 && (a - c).dot(d - c) > 0.0 && (a - d).dot(c - d) > 0.0;
+    begins || side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
 }
 
 /// Whether `p` lies within the angle of the loop's corner `at`: corners that lie on one another differ in that.
