@@ -47,6 +47,29 @@ fn no_acne() {
     gpu.finish();
 }
 
+/// A start near the origin on a very large triangle: the arithmetic that meets it again is coarser than the start is.
+#[test]
+fn no_acne_in_the_middle_of_a_large_triangle() {
+    let gpu = CheckedGpu::open();
+    let mut random = Random(22);
+    for grazing in [1.0, 0.1, 1e-2] {
+        let mut hits = 0;
+        for _ in 0..24 {
+            let u = random.direction();
+            let v = u.cross(random.direction()).normalize();
+            let center = random.place();
+            let around = |s: f32, t: f32, size: f32| center + (u * s + v * t) * size;
+            let corners =
+                |size: f32| [[-1.0, -1.0], [2.0, -0.7], [-0.8, 2.0]].map(|[s, t]| around(s, t, size));
+            let rows: Vec<_> = (0..512).map(|_| leaving(&mut random, corners(0.1), grazing)).collect();
+            hits += occluded(&gpu, &soup(&[corners(1e3)]), &rows).iter().filter(|&&hidden| hidden).count();
+        }
+        println!("grazing {grazing}: {hits} of {}", 24 * 512);
+        assert_eq!(hits, 0, "grazing {grazing}");
+    }
+    gpu.finish();
+}
+
 /// A wall that stands on the floor shades it right up to their common edge.
 #[test]
 fn no_leak_at_contact() {
