@@ -3,8 +3,8 @@
 //! Every triangle that no mask cuts is in the way, from either side and whether or not that side is drawn, and so is
 //! every area light that is seen (`visible`), as the exact shape and from its back as well. A shadow ray leaves from the
 //! point itself, not from beside it: it does not meet the triangle that the point lies in, and both of its ends are
-//! shorter by [`MARGIN`], far less than what float32 vertices can tell apart. What coincides with the surface or with
-//! the light then hides neither, and nothing leaks where two walls touch.
+//! shorter by 1e-9 of the distances in play, far less than what float32 vertices can tell apart. What coincides with
+//! the surface or with the light then hides neither, and nothing leaks where two walls touch.
 
 use glam::DVec3;
 
