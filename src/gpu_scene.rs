@@ -1,8 +1,10 @@
 //! A scene on the device: triangles sorted by what draws them, materials, textures, lights.
 
 mod coincident;
+pub mod occluders;
 mod textures;
 
+use crate::bvh::Bvh;
 use crate::draws::{Draw, is_closed};
 use crate::error::{Error, Result};
 use crate::gpu::{
@@ -15,6 +17,7 @@ use crate::scene::{Material, Model, Parameter, PointLight, Scene, Vertex};
 use crate::shared::{self, LightNode, MaterialRecord};
 use coincident::Drawn;
 use glam::Vec3;
+use occluders::Occluders;
 use rayon::prelude::*;
 use std::sync::Arc;
 use textures::Textures;
@@ -66,6 +69,7 @@ pub struct GpuScene {
     _records: Buffer<MaterialRecord>,
     _nodes: Image,
     _light_image: Image,
+    _occluders: Occluders,
 }
 
 impl GpuScene {
@@ -95,6 +99,10 @@ impl GpuScene {
         let set = layout.allocate(shared::scene::SET, 1)?;
         set.get(0).image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
         set.get(0).image(shared::scene::SCENE_LIGHT_NODES, &nodes, Use::Texture);
+        // Where shadows are not asked for, nothing hides anything.
+        let bvh = if scene.render.shadows { Bvh::new(scene, origin) } else { Bvh::default() };
+        let occluders = Occluders::new(device, &bvh)?;
+        occluders.bind(set.get(0));
         let textures = Textures::new(device, scene)?;
         let materials = textures.bind(&layout, scene)?;
         for index in 0..scene.materials.len() {
@@ -115,6 +123,7 @@ impl GpuScene {
             _records: records,
             _nodes: nodes,
             _light_image: light_image,
+            _occluders: occluders,
         })
     }
 }

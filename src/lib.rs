@@ -21,6 +21,7 @@
 //! | [`mod@reference`] | the oracle in double precision, without Vulkan |
 //! | [`gpu`] | thin safe layer over `ash`, the only module with `unsafe` |
 //! | [`light_tree`] | lights in Hilbert order, and the tree over them |
+//! | [`bvh`] | a tree over what hides lights: triangles, masks, luminaires |
 //! | [`camera_constants`] | from a camera to what the shaders know of it |
 //! | [`draws`] | runs of triangles: which a camera can see, and from which side |
 //! | [`gpu_scene`] | the scene on the device |
@@ -32,6 +33,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics fails"))]
 
 pub mod app;
+pub mod bvh;
 pub mod camera_constants;
 pub mod compare;
 pub mod draws;

@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::gpu::{Buffer, BufferUse, ComputePipeline, Device, PipelineLayout, Shader, Specialization, Use};
+use crate::gpu_scene::occluders::Occluders;
 use crate::shared::{self, LINEAR_GROUP};
 use bytemuck::Pod;
 use std::sync::Arc;
@@ -16,7 +17,26 @@ pub fn run<In: Pod, Out: Pod>(
     specialization: &Specialization,
     rows: &[In],
 ) -> Result<Vec<Out>> {
-    let layout = Arc::new(PipelineLayout::new(device, &[shared::probe::BINDINGS])?);
+    run_among(device, shader, specialization, None, rows)
+}
+
+/// As [`run`], for a shader that also sees what hides lights.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_among<In: Pod, Out: Pod>(
+    device: &Arc<Device>,
+    shader: Shader,
+    specialization: &Specialization,
+    occluders: Option<&Occluders>,
+    rows: &[In],
+) -> Result<Vec<Out>> {
+    let layout = PipelineLayout::new(device, &[shared::probe::BINDINGS, shared::scene::BINDINGS])?;
+    let layout = Arc::new(layout);
+    let scene = layout.allocate(shared::scene::SET, 1)?;
+    if let Some(occluders) = occluders {
+        occluders.bind(scene.get(0));
+    }
     let pipeline = ComputePipeline::new(device, &layout, shader, specialization)?;
     let input = Buffer::with(device, "probe rows", BufferUse::Storage, rows)?;
     let output = Buffer::<Out>::new(device, "probe results", BufferUse::Storage, rows.len())?;
@@ -24,7 +44,7 @@ pub fn run<In: Pod, Out: Pod>(
     sets.get(0).buffer(shared::probe::PROBE_IN, &input);
     sets.get(0).buffer(shared::probe::PROBE_OUT, &output);
     device.run("probe", |cmd| {
-        cmd.bind_compute(&pipeline, &[sets.get(0)]);
+        cmd.bind_compute(&pipeline, &[sets.get(0), scene.get(0)]);
         cmd.dispatch([(rows.len() as u32).div_ceil(LINEAR_GROUP), 1, 1]);
         Ok(())
     })?;

@@ -47,6 +47,20 @@ shared! {
         LEAF_LIGHTS = 32;
         /// Bits of a leaf's light count in `LightNode::lights`.
         LEAF_COUNT_BITS = 6;
+        /// log2 of the texels across the occluders' texture.
+        BVH_WIDTH_LOG2 = 12;
+        /// Texels before the nodes.
+        BVH_HEADER_TEXELS = 2;
+        /// Texels of a triangle.
+        BVH_TRIANGLE_TEXELS = 3;
+        /// Triangles of a leaf at most.
+        BVH_LEAF = 4;
+        /// Bits of a leaf's triangle count in its node's last word.
+        BVH_COUNT_BITS = 3;
+        /// Set in the last word of a leaf.
+        BVH_LEAF_BIT = 2147483648;
+        /// Cells of the nodes' grid along an axis: their corners are 16-bit numbers.
+        BVH_CELLS = 65535;
         /// Texture slots of a material.
         MATERIAL_TEXTURES = 8;
         /// A parameter without a texture.
@@ -130,6 +144,9 @@ shared! {
             SCENE_LIGHTS = 0: Sampled;
             /// [`LightNode`](super::LightNode)s in depth-first order, two texels each.
             SCENE_LIGHT_NODES = 1: Sampled;
+            /// What hides lights: a [`BvhHeader`](super::BvhHeader), [`BvhNode`](super::BvhNode)s in depth-first order,
+            /// [`BvhTriangle`](super::BvhTriangle)s, [`MaskedTriangle`](super::MaskedTriangle)s and masks.
+            SCENE_BVH = 2: Sampled;
         }
         /// A material: its textures and constants.
         material = 2 {
@@ -256,6 +273,71 @@ shared! {
             upper: vec3;
             /// Leaf: first light << LEAF_COUNT_BITS | count; inner node: 0.
             lights: uint;
+        }
+        /// The grid of a tree's nodes.
+        BvhHeader {
+            /// Lower corner.
+            lower: vec3;
+            /// Nodes; 0: nothing hides anything.
+            nodes: uint;
+            /// Sides of a cell.
+            cell: vec3;
+            /// Triangles, for captures.
+            triangles: uint;
+        }
+        /// A node over occluding triangles.
+        BvhNode {
+            /// Along x: the lower corner's cell | the upper corner's << 16.
+            x: uint;
+            /// Along y.
+            y: uint;
+            /// Along z.
+            z: uint;
+            /// Inner node: the next node where this one is missed. Leaf, which the next one follows in any case:
+            /// `BVH_LEAF_BIT` | texel of the first triangle << `BVH_COUNT_BITS` | count.
+            next: uint;
+        }
+        /// An occluding triangle.
+        BvhTriangle {
+            /// First corner.
+            a: vec3;
+            /// Texel of its [`MaskedTriangle`]; 0: no mask.
+            masked: uint;
+            /// Second corner.
+            b: vec3;
+            /// Mesh, for captures; a luminaire's follow the scene's.
+            mesh: uint;
+            /// Third corner.
+            c: vec3;
+            /// Triangle of the mesh, for captures.
+            triangle: uint;
+        }
+        /// How a mask cuts a triangle.
+        MaskedTriangle {
+            /// Texture coordinates of two corners.
+            uv_ab: vec4;
+            /// Of the third.
+            uv_c: vec2;
+            /// First word of the mask, which has one for each texel: it and its right, lower and lower right neighbours
+            /// as bytes.
+            words: uint;
+            /// Texels across and down, 16 bits each.
+            size: uint;
+        }
+        /// A row of the occlusion probe.
+        RayProbeRow {
+            /// Start.
+            origin: vec3;
+            /// Distances between which something is in the way.
+            t_min: float;
+            /// Unit.
+            direction: vec3;
+            /// Greatest.
+            t_max: float;
+            /// Unit geometric normal along which the start is moved.
+            normal: vec3;
+            /// Scale of that move; 0: none.
+            scale: float;
         }
         /// A material's constants; rows by `Parameter`, and one to fill the 256 bytes to which uniform buffers may have
         /// to be aligned.

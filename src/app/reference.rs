@@ -13,7 +13,7 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
     check_distinct([&options.output].into_iter().chain(&options.error), options.scene.scene.as_deref())?;
     let scene = load_scene(&options.scene)?;
     let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
-    warn_of_missing_light(&scene.render);
+    warn_of_missing_light(&scene.render, options.integrator);
     let defaults = Options::of_scene(&scene);
     let rendered = render(
         &scene,
@@ -34,11 +34,17 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
     options.error.iter().try_for_each(|path| rendered.standard_error.save(path))
 }
 
-/// `direct` is unshadowed direct light, whatever the scene asks for.
-fn warn_of_missing_light(render: &RenderSettings) {
-    for (asked, what) in [(render.shadows, "shadows"), (render.vpls > 0, "indirect light")] {
-        if asked {
-            eprintln!("amas: warning: the scene asks for {what}; the direct integrator leaves that out");
+/// Each integrator computes what it is named after, whatever the scene asks for.
+fn warn_of_missing_light(render: &RenderSettings, integrator: IntegratorName) {
+    let (name, shadows, indirect) = match integrator {
+        IntegratorName::Direct => ("direct", false, false),
+        IntegratorName::Shadowed => ("shadowed", true, false),
+        IntegratorName::Path => ("path", true, true),
+    };
+    let asked = [(render.shadows && !shadows, "shadows"), (render.vpls > 0 && !indirect, "indirect light")];
+    for (missing, what) in asked {
+        if missing {
+            eprintln!("amas: warning: the scene asks for {what}; the {name} integrator leaves that out");
         }
     }
 }

@@ -1,10 +1,11 @@
-//! Point lights: falloff, the exact sum over all of them, and which of them reach a place.
+//! Point lights: falloff, the exact sum over all of them or over those in sight, and which of them reach a place.
 
 use glam::DVec3;
 
 use super::shading::Surface;
 pub use super::tree::Bounds;
 use super::tree::Tree;
+use super::visibility::Shadow;
 use crate::scene::PointLight;
 
 /// Radiant intensity to irradiance at normal incidence, m⁻²: the window (1 − (d/range)⁴)²₊ on 1/max(d², 1e-4), or pure
@@ -55,18 +56,18 @@ impl PointLights {
         Self { unranged, ranged, tree: Tree::new(&boxes) }
     }
 
-    /// Reflected radiance Σ f cosθ I falloff(d), unshadowed.
+    /// Reflected radiance Σ f cosθ I falloff(d) of the lights that `shadow` leaves, all of them without one.
     #[must_use]
-    pub fn reflected(&self, surface: &Surface) -> DVec3 {
-        let every: DVec3 = self.unranged.iter().map(|light| light.reflected(surface)).sum();
+    pub fn reflected(&self, surface: &Surface, shadow: Option<&Shadow>) -> DVec3 {
+        let every: DVec3 = self.unranged.iter().map(|light| light.reflected(surface, shadow)).sum();
         let mut near = DVec3::ZERO;
-        self.tree.at_point(surface.position, |index| near += self.ranged[index].reflected(surface));
+        self.tree.at_point(surface.position, |index| near += self.ranged[index].reflected(surface, shadow));
         every + near
     }
 }
 
 impl Light {
-    fn reflected(&self, surface: &Surface) -> DVec3 {
+    fn reflected(&self, surface: &Surface, shadow: Option<&Shadow>) -> DVec3 {
         let to_light = self.position - surface.position;
         let distance_squared = to_light.length_squared();
         let falloff = falloff(distance_squared, self.range);
@@ -74,8 +75,11 @@ impl Light {
         if surface.frame.normal.dot(to_light) <= 0.0 || falloff == 0.0 {
             return DVec3::ZERO;
         }
-        let wi = surface.frame.to_local(to_light / distance_squared.sqrt());
-        surface.bsdf.eval(surface.wo, wi) * self.intensity * (wi.z * falloff)
+        let distance = distance_squared.sqrt();
+        let wi = surface.frame.to_local(to_light / distance);
+        let reflected = surface.bsdf.eval(surface.wo, wi) * self.intensity * (wi.z * falloff);
+        let dark = || shadow.is_some_and(|shadow| shadow.covers(to_light / distance, distance, None));
+        if reflected == DVec3::ZERO || dark() { DVec3::ZERO } else { reflected }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The oracle: double precision, on the CPU, written from the papers and not from the shaders.
 //!
 //! Exact up to rounding: camera rays and hits ([`rays`]), shading frames and BSDFs ([`shading`], [`bsdf`]), the sum over
-//! point lights ([`lights`]). An unbiased estimate with its standard error: area lights ([`area`]) and pixels of more
+//! point lights ([`lights`]), what stands between a light and a surface ([`visibility`]). An unbiased estimate with its standard error: area lights ([`area`]) and pixels of more
 //! than one ray ([`render()`]).
 
 pub mod area;
@@ -13,5 +13,6 @@ mod sampler;
 pub mod shading;
 mod texture;
 mod tree;
+pub mod visibility;
 
 pub use render::{Integrator, Options, Rendered, render};

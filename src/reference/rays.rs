@@ -102,14 +102,46 @@ impl<'a> Geometry<'a> {
         closest
     }
 
+    /// Whether a triangle lies in the way between two distances along a ray, from either side: a wall is a wall even
+    /// where its back is not drawn. What an alpha mask cuts is no wall, nor is the triangle `except` (mesh, triangle),
+    /// on which the ray begins.
+    #[must_use]
+    pub fn occludes(&self, ray: &Ray, [t_min, t_max]: [f64; 2], except: Option<(usize, usize)>) -> bool {
+        let sheared = Sheared::new(ray);
+        self.tree.any_along_ray(ray, t_max, |item| {
+            let (m, t) = self.triangles[item];
+            let (mesh, triangle) = (m as usize, t as usize);
+            if except == Some((mesh, triangle)) {
+                return false;
+            }
+            let met = sheared.meets(corners(&self.scene.meshes[mesh], triangle));
+            met.is_some_and(|(t, weights, front)| {
+                (t_min..t_max).contains(&t) && self.uncut(&Hit { t, mesh, triangle, weights, front })
+            })
+        })
+    }
+
+    /// Normal of the triangle that a hit lies in, on the side from which it winds counter-clockwise; not of unit length.
+    #[must_use]
+    pub fn normal(&self, hit: &Hit) -> DVec3 {
+        let [a, b, c] = corners(&self.scene.meshes[hit.mesh], hit.triangle);
+        (b - a).cross(c - a)
+    }
+
     fn drawn(&self, hit: &Hit) -> bool {
         let mesh = &self.scene.meshes[hit.mesh];
         let material = &self.scene.materials[mesh.material as usize];
-        let uncut = material.value(Parameter::Mask).texture.is_none_or(|index| {
+        (material.two_sided || hit.front) && self.uncut(hit)
+    }
+
+    /// The material's alpha mask leaves the place of a hit.
+    fn uncut(&self, hit: &Hit) -> bool {
+        let mesh = &self.scene.meshes[hit.mesh];
+        let mask = self.scene.materials[mesh.material as usize].value(Parameter::Mask).texture;
+        mask.is_none_or(|index| {
             let uv = vertex_uv(mesh, hit);
             sample(&self.scene.textures[index as usize], uv, Wrap::Repeat).x >= 0.5
-        });
-        uncut && (material.two_sided || hit.front)
+        })
     }
 }
 

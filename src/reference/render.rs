@@ -9,6 +9,7 @@ use super::lights::PointLights;
 use super::rays::{CameraRay, Geometry, camera_ray};
 use super::sampler::{Sequence, hash};
 use super::shading::Surface;
+use super::visibility::{Occluders, Shadow};
 use crate::scene::{Camera, Scene};
 use crate::{Error, HdrImage, Result};
 
@@ -77,6 +78,7 @@ pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rende
         geometry: Geometry::new(scene),
         points: PointLights::new(&scene.point_lights),
         emitters: scene.area_lights.iter().map(|l| Emitter::new(l, &scene.textures)).collect(),
+        shadowed: options.integrator == Integrator::Shadowed,
         tolerance: options.tolerance * f64::from(options.spp).sqrt(),
     };
     let [width, height] = options.size;
@@ -97,14 +99,9 @@ pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rende
 }
 
 fn check(options: &Options) -> Result<()> {
-    let name = match options.integrator {
-        Integrator::Direct => None,
-        Integrator::Shadowed => Some("shadowed"),
-        Integrator::Path => Some("path"),
-    };
-    if let Some(name) = name {
-        let cause = format!("the integrator \"{name}\" is not supported yet");
-        return Err(Error::usage(cause, "use the integrator \"direct\""));
+    if options.integrator == Integrator::Path {
+        let cause = "the integrator \"path\" is not supported yet";
+        return Err(Error::usage(cause, "use the integrator \"direct\" or \"shadowed\""));
     }
     if options.size.contains(&0) || options.spp == 0 {
         let cause = "a picture without pixels or without samples";
@@ -132,6 +129,7 @@ struct World<'a> {
     geometry: Geometry<'a>,
     points: PointLights,
     emitters: Vec<Emitter<'a>>,
+    shadowed: bool,
     tolerance: f64,
 }
 
@@ -165,7 +163,10 @@ impl World<'_> {
             return Estimate { value: background.into(), standard_error: DVec3::ZERO };
         };
         let surface = Surface::new(self.scene, &view.ray, &hit);
-        let area = area::reflected(&surface, &self.emitters, self.tolerance, seed);
-        Estimate { value: area.value + self.points.reflected(&surface), ..area }
+        let occluders = Occluders { geometry: &self.geometry, emitters: &self.emitters };
+        let shadow = self.shadowed.then(|| Shadow::new(&occluders, &view.ray, &hit));
+        let shadow = shadow.as_ref();
+        let area = area::reflected_where(&surface, &self.emitters, shadow, self.tolerance, seed);
+        Estimate { value: area.value + self.points.reflected(&surface, shadow), ..area }
     }
 }

@@ -155,6 +155,24 @@ impl Tree {
         }
     }
 
+    /// Whether `hit` says so of any item whose box the ray enters before `t_max`.
+    pub(super) fn any_along_ray(&self, ray: &Ray, t_max: f64, mut hit: impl FnMut(usize) -> bool) -> bool {
+        let mut stack = vec![0];
+        while let Some(index) = stack.pop() {
+            let entered = |node: &&Node| node.bounds.entry(ray, t_max).is_some();
+            let Some(node) = self.nodes.get(index).filter(entered) else {
+                continue;
+            };
+            if node.count == 0 {
+                stack.extend([node.first as usize, index + 1]);
+            }
+            if self.leaf(node).iter().any(|&item| hit(item as usize)) {
+                return true;
+            }
+        }
+        false
+    }
+
     fn leaf(&self, node: &Node) -> &[u32] {
         let first = if node.count == 0 { 0 } else { node.first as usize };
         &self.items[first..first + node.count as usize]

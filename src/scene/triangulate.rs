@@ -33,8 +33,8 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - b)
 }
 
-/// Ear clipping; where no ear is left (a loop that crosses itself) the first corner is cut all the same.
-fn ears(flat: &[DVec2]) -> Vec<[usize; 3]> {
+/// Ear clipping of a counter-clockwise loop; where no ear is left (a loop that crosses itself) the first corner is cut all the same.
+pub(super) fn ears(flat: &[DVec2]) -> Vec<[usize; 3]> {
     let mut left: Vec<usize> = (0..flat.len()).collect();
     let mut triangles = Vec::with_capacity(flat.len() - 2);
     while left.len() > 3 {

@@ -7,6 +7,8 @@ pub type float = f32;
 pub type uint = u32;
 /// GLSL `uvec2`.
 pub type uvec2 = [u32; 2];
+/// GLSL `vec2`.
+pub type vec2 = [f32; 2];
 /// GLSL `vec3`; takes its 16-byte slot only together with a scalar behind it.
 pub type vec3 = [f32; 3];
 /// GLSL `vec4`.

@@ -2,10 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use amas::shared::{LAYOUTS, StructLayout};
+use amas::shared::{self, LAYOUTS, StructLayout};
 
 use crate::modules;
 use crate::spirv::{Module, decoration};
+
+/// Structs that shaders take from textures.
+const IN_TEXELS: [&str; 5] = ["LightNode", "BvhHeader", "BvhNode", "BvhTriangle", "MaskedTriangle"];
 
 #[test]
 fn structs_lie_in_shaders_as_they_do_in_rust() {
@@ -20,8 +23,8 @@ fn structs_lie_in_shaders_as_they_do_in_rust() {
         }
     }
     // Each of them is read or written by a shader: one that is not found is dead, or misnamed.
-    // The tree's nodes lie in texels, where SPIR-V gives no offsets: see below.
-    let in_blocks = |layout: &&StructLayout| layout.name != "LightNode";
+    // What lies in texels has no offsets in SPIR-V: see below.
+    let in_blocks = |layout: &&StructLayout| !IN_TEXELS.contains(&layout.name);
     let all: BTreeSet<_> = LAYOUTS.iter().filter(in_blocks).map(|layout| layout.name).collect();
     assert_eq!(found, all, "structs found in shaders against structs declared");
 }
@@ -32,6 +35,25 @@ fn light_nodes_fill_two_texels() {
     let layout = LAYOUTS.iter().find(|layout| layout.name == "LightNode").unwrap();
     assert_eq!(layout.fields, [("lower", 0), ("skip", 12), ("upper", 16), ("lights", 28)]);
     assert_eq!(layout.size, 32);
+}
+
+/// So do those of the occluders, as glsl/bind/bvh.glsl reads them.
+#[test]
+fn occluders_fill_whole_texels() {
+    let of = |name| LAYOUTS.iter().find(|layout| layout.name == name).unwrap();
+    let header = of("BvhHeader");
+    assert_eq!(header.fields, [("lower", 0), ("nodes", 12), ("cell", 16), ("triangles", 28)]);
+    assert_eq!(header.size, 16 * shared::BVH_HEADER_TEXELS as usize);
+    let node = of("BvhNode");
+    assert_eq!(node.fields, [("x", 0), ("y", 4), ("z", 8), ("next", 12)]);
+    assert_eq!(node.size, 16);
+    let triangle = of("BvhTriangle");
+    let corners = [("a", 0), ("masked", 12), ("b", 16), ("mesh", 28), ("c", 32), ("triangle", 44)];
+    assert_eq!(triangle.fields, corners);
+    assert_eq!(triangle.size, 16 * shared::BVH_TRIANGLE_TEXELS as usize);
+    let masked = of("MaskedTriangle");
+    assert_eq!(masked.fields, [("uv_ab", 0), ("uv_c", 16), ("words", 24), ("size", 28)]);
+    assert_eq!(masked.size, 32);
 }
 
 fn compare(shader: &str, module: &Module, layout: &StructLayout, id: u32, members: &[u32]) {

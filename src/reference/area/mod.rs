@@ -1,9 +1,11 @@
-//! Direct light of area lights, unshadowed, by multiple importance sampling in double precision.
+//! Direct light of area lights, with or without visibility, by multiple importance sampling in double precision.
 //!
 //! One strategy samples the light's area, the other the BSDF; the balance heuristic weighs them (Veach 1997), so that
 //! the integrand over the summed densities is bounded both for a light that touches the surface and for a mirror-like
 //! lobe. Each strategy runs eight independent random shifts of a quasi-random sequence; their spread is the
-//! standard error. The number of points doubles until that error is small enough.
+//! standard error. The number of points doubles until that error is small enough. With visibility the estimates begin
+//! with more points, so that the edge of a shadow is noticed wherever it may lie: what hides, or lets through, less than
+//! about a thousandth of the light may go unseen at the usual tolerance.
 
 mod cylinder;
 mod planar;
@@ -16,6 +18,7 @@ use super::rays::Ray;
 use super::sampler::{Sequence, hash};
 use super::shading::Surface;
 use super::texture::{Wrap, sample};
+use super::visibility::Shadow;
 use crate::scene::{AreaLight, AreaShape, Texture};
 
 /// Independent estimates from which the standard error is taken.
@@ -98,6 +101,11 @@ impl<'a> Emitter<'a> {
         seen.map(|seen| (seen.distance, self.emitted(&seen)))
     }
 
+    /// Distance along a ray at which a luminaire that is seen lies, from either side.
+    pub(super) fn occluder(&self, ray: &Ray) -> Option<f64> {
+        if self.visible { self.along(ray.origin, ray.direction).map(|seen| seen.distance) } else { None }
+    }
+
     fn along(&self, origin: DVec3, direction: DVec3) -> Option<Seen> {
         match &self.shape {
             Shape::Planar(shape) => shape.along(origin, direction),
@@ -121,13 +129,17 @@ impl<'a> Emitter<'a> {
         self.radiance * texel
     }
 
-    /// One point of each strategy.
-    fn reflected_once(&self, surface: &Surface, xi: [DVec2; 2]) -> DVec3 {
+    /// One point of each strategy; `hidden` says of a point that reflects something whether it is out of sight.
+    fn reflected_once(&self, surface: &Surface, xi: [DVec2; 2], hidden: impl Fn(&Seen) -> bool) -> DVec3 {
         let by_light = self.sample(surface.position, xi[0]);
         let local = surface.bsdf.sample(surface.wo, xi[1]);
         let by_bsdf =
             if local.z > 0.0 { self.along(surface.position, surface.frame.to_world(local)) } else { None };
-        let term = |seen: Option<Seen>| seen.map_or(DVec3::ZERO, |s| self.weighed(surface, &s));
+        let term = |seen: Option<Seen>| {
+            let Some(seen) = seen else { return DVec3::ZERO };
+            let weighed = self.weighed(surface, &seen);
+            if weighed == DVec3::ZERO || hidden(&seen) { DVec3::ZERO } else { weighed }
+        };
         term(by_light) + term(by_bsdf)
     }
 
@@ -145,23 +157,28 @@ impl<'a> Emitter<'a> {
 /// The running estimate of one light at one surface.
 struct Running<'a> {
     emitter: &'a Emitter<'a>,
+    /// Among all.
+    index: usize,
     sequences: [[Sequence; 2]; SHIFTS],
     sums: [DVec3; SHIFTS],
     points: u32,
 }
 
 impl<'a> Running<'a> {
-    fn new(emitter: &'a Emitter<'a>, seed: u64) -> Self {
+    fn new(emitter: &'a Emitter<'a>, index: usize, seed: u64) -> Self {
+        let seed = hash(&[seed, index as u64]);
         let sequence = |shift: usize, strategy: u64| Sequence::new(hash(&[seed, shift as u64, strategy]));
         let sequences = std::array::from_fn(|shift| [sequence(shift, 0), sequence(shift, 1)]);
-        Self { emitter, sequences, sums: [DVec3::ZERO; SHIFTS], points: 0 }
+        Self { emitter, index, sequences, sums: [DVec3::ZERO; SHIFTS], points: 0 }
     }
 
-    fn extend(&mut self, surface: &Surface, points: u32) {
+    fn extend(&mut self, surface: &Surface, shadow: Option<&Shadow>, points: u32) {
+        let own = Some(self.index);
+        let hidden = |seen: &Seen| shadow.is_some_and(|shadow| shadow.covers(seen.wi, seen.distance, own));
         for (sum, sequences) in self.sums.iter_mut().zip(&self.sequences) {
             for index in self.points..points {
                 let xi = sequences.map(|sequence| sequence.point(index));
-                *sum += self.emitter.reflected_once(surface, xi);
+                *sum += self.emitter.reflected_once(surface, xi, hidden);
             }
         }
         self.points = points;
@@ -181,19 +198,32 @@ pub(super) fn mean(estimates: &[DVec3]) -> Estimate {
     Estimate { value, standard_error: variance.map(f64::sqrt) }
 }
 
-/// Light of all `emitters` reflected by `surface` towards the viewer, W·sr⁻¹·m⁻².
+/// Light of all `emitters` reflected by `surface` towards the viewer, W·sr⁻¹·m⁻², without visibility.
+#[must_use]
+pub fn reflected(surface: &Surface, emitters: &[Emitter], tolerance: f64, seed: u64) -> Estimate {
+    reflected_where(surface, emitters, None, tolerance, seed)
+}
+
+/// Light of all `emitters` reflected by `surface` towards the viewer, W·sr⁻¹·m⁻²; only what `shadow` leaves, if there is
+/// one: its emitters are these.
 ///
 /// Points are added until each light's standard error is at most `tolerance` of the sum (shared by the square root of
 /// the number of lights), or 16384 points of each of the eight shifts are spent. Stopping when the error looks small favours estimates that are high:
 /// a bias of about 2 % of `tolerance`, measured. Same seed, same result.
-#[must_use]
-pub fn reflected(surface: &Surface, emitters: &[Emitter], tolerance: f64, seed: u64) -> Estimate {
+pub(super) fn reflected_where(
+    surface: &Surface,
+    emitters: &[Emitter],
+    shadow: Option<&Shadow>,
+    tolerance: f64,
+    seed: u64,
+) -> Estimate {
     if surface.wo.z <= 0.0 || emitters.is_empty() {
         return Estimate::default();
     }
+    let first = if shadow.is_some() { first_points(tolerance) } else { POINTS[0] };
     let start = |(index, emitter)| {
-        let mut running = Running::new(emitter, hash(&[seed, index as u64]));
-        running.extend(surface, POINTS[0]);
+        let mut running = Running::new(emitter, index, seed);
+        running.extend(surface, shadow, first);
         running
     };
     let mut all: Vec<_> = emitters.iter().enumerate().map(start).collect();
@@ -205,7 +235,7 @@ pub fn reflected(surface: &Surface, emitters: &[Emitter], tolerance: f64, seed: 
         for running in &mut all {
             let error = running.estimate().standard_error.element_sum();
             if error > allowed && running.points < POINTS[1] {
-                running.extend(surface, 2 * running.points);
+                running.extend(surface, shadow, 2 * running.points);
                 settled = false;
             }
         }
@@ -213,6 +243,12 @@ pub fn reflected(surface: &Surface, emitters: &[Emitter], tolerance: f64, seed: 
             return total;
         }
     }
+}
+
+/// Points of each strategy and shift at first where light may be cut: all shifts together have one over the tolerance.
+fn first_points(tolerance: f64) -> u32 {
+    let wanted = (SHIFTS as f64 * tolerance).max(f64::MIN_POSITIVE).recip();
+    (wanted.min(f64::from(POINTS[1])) as u32).next_power_of_two().clamp(POINTS[0], POINTS[1] / 16)
 }
 
 fn total(all: &[Running]) -> Estimate {

@@ -1,0 +1,10 @@
+//! `occluded` of glsl/bind/bvh.glsl on the device, unchanged, against double precision.
+#![allow(clippy::unwrap_used, reason = "a test that panics fails")]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod exact;
+mod probe;
+mod scenes;
+mod soups;
+mod starts;

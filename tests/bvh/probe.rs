@@ -1,0 +1,75 @@
+//! Scenes of loose triangles, random numbers, and the way to the device.
+
+use amas::bvh::Bvh;
+use amas::gpu::{Specialization, shaders};
+use amas::gpu_scene::occluders::Occluders;
+use amas::scene::{Mesh, Scene, Vertex};
+use amas::shared::RayProbeRow;
+use glam::{DVec3, Vec3, vec3};
+
+use crate::common::gpu::CheckedGpu;
+use crate::common::square;
+
+/// What the device says of each ray.
+pub(crate) fn occluded(gpu: &CheckedGpu, scene: &Scene, rows: &[RayProbeRow]) -> Vec<bool> {
+    let occluders = Occluders::new(gpu, &Bvh::new(scene, Vec3::ZERO)).unwrap();
+    let none = Specialization::default();
+    let values: Vec<u32> =
+        amas::probe::run_among(gpu, shaders::PROBE_BVH_COMP, &none, Some(&occluders), rows).unwrap();
+    assert!(values.iter().all(|&value| value <= 1));
+    values.into_iter().map(|value| value == 1).collect()
+}
+
+/// A ray of which everything between its ends counts.
+pub(crate) fn ray(origin: Vec3, direction: Vec3, t_min: f32, t_max: f32) -> RayProbeRow {
+    let (origin, direction) = (origin.to_array(), direction.to_array());
+    RayProbeRow { origin, t_min, direction, t_max, ..RayProbeRow::default() }
+}
+
+/// One mesh of loose triangles.
+pub(crate) fn soup(triangles: &[[Vec3; 3]]) -> Scene {
+    let vertex = |position: &Vec3| Vertex { position: position.to_array(), ..Vertex::default() };
+    let mesh = Mesh {
+        vertices: triangles.iter().flatten().map(vertex).collect(),
+        triangles: (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        material: 0,
+    };
+    Scene { meshes: vec![mesh], ..square::scene() }
+}
+
+/// All triangles of a scene's meshes.
+pub(crate) fn triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
+    let of_mesh = |mesh: &Mesh| {
+        let corner = |index: u32| Vec3::from(mesh.vertices[index as usize].position).as_dvec3();
+        mesh.triangles.iter().map(|triangle| triangle.map(corner)).collect::<Vec<_>>()
+    };
+    scene.meshes.iter().flat_map(of_mesh).collect()
+}
+
+/// PCG, the same numbers everywhere.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    /// In [0, 1).
+    pub(crate) fn number(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let mixed = ((self.0 >> 18) ^ self.0) >> 27;
+        let word = (mixed as u32).rotate_right((self.0 >> 59) as u32);
+        (word >> 8) as f32 / 16_777_216.0
+    }
+
+    /// In the cube of half edge 1.
+    pub(crate) fn place(&mut self) -> Vec3 {
+        vec3(self.number(), self.number(), self.number()) * 2.0 - 1.0
+    }
+
+    /// Uniform over directions.
+    pub(crate) fn direction(&mut self) -> Vec3 {
+        loop {
+            let p = self.place();
+            if (0.01..=1.0).contains(&p.length_squared()) {
+                return p.normalize();
+            }
+        }
+    }
+}
