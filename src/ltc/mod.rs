@@ -44,4 +44,4 @@ pub use fresnel::{project_conductor, project_dielectric};
 pub use layer::{Frame, Layer, Parameters};
 pub use lobe::{Lobe, PLASTIC_ETAS};
 pub use matrix::{Basis, Shape, density, leak};
-pub use table::{LayerTable, Lookup, Tables, tables};
+pub use table::{LayerTable, Lookup, Tables, schlick_share, tables};

@@ -171,6 +171,18 @@ impl Tables {
         self.layer(layer).lookup(Parameters { r, cos })
     }
 
+    /// The matrix and the moments of a lobe with Schlick's Fresnel of reflectance `f0`, between those of its two layers:
+    /// `dielectric`, of a low reflectance, and `metal`, of F = 1 ([`schlick_share`]). Its mass is f0 A0 + (1 − f0) A5.
+    ///
+    /// The bound is that of a layer only where `f0` is the layer's own.
+    #[must_use]
+    pub fn lookup_schlick(&self, [dielectric, metal]: [Layer; 2], r: f64, cos: f64, f0: f64) -> Lookup {
+        let [low, high] = [dielectric, metal].map(|layer| self.lookup(layer, r, cos));
+        let [a0, a5, ..] = low.moments;
+        let share = schlick_share(f0, dielectric.mixture()[0], [a0, a5]);
+        Lookup { inverse: low.inverse * (1.0 - share) + high.inverse * share, ..low }
+    }
+
     /// Writes the file that [`tables`] embeds: a magic word, then of each layer in order the scale (f32), shapes
     /// (4 × snorm16 a texel) and moments (4 × f32 a texel), then FNV-1a over all of that; little-endian.
     ///
@@ -196,6 +208,15 @@ impl Tables {
         let layers = layers.collect::<Option<_>>()?;
         rest.is_empty().then_some(Self { layers })
     }
+}
+
+/// How much of the matrix for F = 1 there is in that for reflectance `f0`, the rest being of the matrix for reflectance
+/// `low`: linear in the share of the light that the constant part of Schlick's Fresnel f0 + (1 − f0)(1 − cos)⁵ reflects,
+/// given the moments A0 and A5.
+#[must_use]
+pub fn schlick_share(f0: f64, low: f64, [a0, a5]: [f64; 2]) -> f64 {
+    let constant = |f0: f64| f0 * a0 / (f0 * a0 + (1.0 - f0) * a5);
+    ((constant(f0) - constant(low)) / (1.0 - constant(low))).clamp(0.0, 1.0)
 }
 
 /// FNV-1a, 64 bits.
