@@ -10,8 +10,8 @@ use super::{Basis, Frame, Layer, LayerTable, Lobe, Objective, Parameters, Shape,
 
 /// Directions that judge a table; not those of the fits.
 const SAMPLES: usize = 20_000;
-/// Added to every stored bound: what the judging directions and the places between them may miss.
-const MARGIN: f64 = 2e-4;
+/// What the judging directions and the places between the judged ones may miss of a bound: a share of it, and this much.
+const MARGIN: [f64; 2] = [1.02, 2e-4];
 
 /// The figures of a place in a table: of a texel, or of the middle of an edge or of a cell.
 #[derive(Clone, Copy, Debug)]
@@ -70,18 +70,18 @@ pub fn fit_layer(layer: Layer, objective: Objective, done: &(impl Fn() + Sync)) 
         cell
     };
     let cells: Vec<Cell> = (0..wide * high).into_par_iter().map(judged).collect();
-    bound(&mut table, objective, &cells);
+    bound(&mut table, &cells);
     Fitted { table, cells }
 }
 
 /// Stores of each texel the largest bound around it; in the last row, what makes the interpolated bounds hold up to 90°.
-fn bound(table: &mut LayerTable, objective: Objective, cells: &[Cell]) {
+fn bound(table: &mut LayerTable, cells: &[Cell]) {
     let [columns, rows] = table.layer.size();
     let wide = 2 * columns - 1;
     let around = |at: usize, end: usize| at.saturating_sub(2)..(at + 3).min(end);
     let largest = |column: usize, rows: std::ops::Range<usize>| {
         let indices = rows.flat_map(|y| around(2 * column, wide).map(move |x| y * wide + x));
-        indices.map(|index| cells[index].table.bound).fold(0.0, f64::max) + MARGIN
+        with_margin(indices.map(|index| cells[index].table.bound))
     };
     for index in 0..columns * (rows - 1) {
         let (column, row) = (index % columns, index / columns);
@@ -92,13 +92,12 @@ fn bound(table: &mut LayerTable, objective: Objective, cells: &[Cell]) {
         .map(|column| {
             let before = f64::from(table.moments[columns * (rows - 2) + column][3]);
             let near = [0.75, 0.9].map(|share| {
-                let place = |column| {
-                    let row = rows as f64 - 2.0 + share;
-                    let albedo = Lobe::new(table.layer, table.layer.parameters(column, row)).albedo();
-                    judge(table, objective, column, row, albedo).table.bound
-                };
-                let sides = around(2 * column, wide).map(|x| place(0.5 * x as f64));
-                (sides.fold(0.0, f64::max) + MARGIN - before * (1.0 - share)) / share
+                let sides = around(2 * column, wide).map(|x| {
+                    let place = table.layer.parameters(0.5 * x as f64, rows as f64 - 2.0 + share);
+                    let lobe = Lobe::new(table.layer, place);
+                    against(table, place, &judges(&lobe), lobe.albedo()).bound
+                });
+                (with_margin(sides) - before * (1.0 - share)) / share
             });
             near.into_iter().fold(largest(column, 2 * rows - 2..2 * rows - 1), f64::max) as f32
         })
@@ -106,6 +105,11 @@ fn bound(table: &mut LayerTable, objective: Objective, cells: &[Cell]) {
     for (column, bound) in last.into_iter().enumerate() {
         table.moments[columns * (rows - 1) + column][3] = bound;
     }
+}
+
+/// The largest of `bounds`, and a little more.
+fn with_margin(bounds: impl Iterator<Item = f64>) -> f64 {
+    MARGIN[0] * bounds.fold(0.0, f64::max) + MARGIN[1]
 }
 
 /// How often [`fit_layer`] calls `done`.
@@ -137,11 +141,8 @@ fn judge(table: &LayerTable, objective: Objective, column: f64, row: f64, albedo
     let layer = table.layer;
     let parameters = layer.parameters(column, row);
     let lobe = Lobe::new(layer, parameters);
-    let samples = Samples::new(&lobe, &Basis::new(Frame::Normal, &lobe), SAMPLES);
-    let lookup = table.lookup(parameters);
-    // This layer's albedo is known in closed form, 1 − (1 − n·wo/2)⁵, and vanishes at 90°, where no table is right.
-    let mass = if layer == Layer::SubstrateDiffuse { albedo } else { lookup.mass() };
-    let assessed = assess_over(&samples, albedo, &lookup.inverse, mass);
+    let samples = judges(&lobe);
+    let assessed = against(table, parameters, &samples, albedo);
     let fitted = if column.fract() == 0.0 && row.fract() == 0.0 {
         assessed.variation
     } else {
@@ -151,4 +152,16 @@ fn judge(table: &LayerTable, objective: Objective, column: f64, row: f64, albedo
         assess_over(&samples, albedo, &inverse, albedo).variation
     };
     Cell { column, row, parameters, albedo, table: assessed, fitted }
+}
+
+fn judges(lobe: &Lobe) -> Samples {
+    Samples::new(lobe, &Basis::new(Frame::Normal, lobe), SAMPLES)
+}
+
+/// What the interpolated table makes of the lobe at `parameters`.
+fn against(table: &LayerTable, parameters: Parameters, samples: &Samples, albedo: f64) -> Assessment {
+    let lookup = table.lookup(parameters);
+    // This layer's albedo is known in closed form, 1 − (1 − n·wo/2)⁵, and vanishes at 90°, where no table is right.
+    let mass = if table.layer == Layer::SubstrateDiffuse { albedo } else { lookup.mass() };
+    assess_over(samples, albedo, &lookup.inverse, mass)
 }

@@ -15,7 +15,7 @@ const LEAST_ALPHA: f64 = 1e-4;
 const LEAST_COS: f64 = 1e-4;
 
 /// Indices of refraction whose albedo the plastic layer stores; any other one's is a weighted sum of these.
-pub const PLASTIC_ETAS: [f64; 3] = [1.5, 1.1, 2.2];
+pub const PLASTIC_ETAS: [f64; 3] = [1.5, 1.2, 2.2];
 
 /// The lobe's own among the three integrals, or factors, of `layer`.
 pub(super) fn mix(layer: Layer, values: [f64; 3]) -> f64 {

@@ -106,7 +106,7 @@ fn albedos_are_integrals_of_the_oracle() {
             let got = lobe.albedo();
             assert!((got - want).abs() < 2e-5 * want.max(0.1), "{layer:?} {parameters:?}: {got} {want}");
             let stored = tables().lookup(layer, parameters.r, parameters.cos).mass();
-            assert!((stored - want).abs() < 2e-3 * want, "{layer:?} {parameters:?}: {stored} {want}");
+            assert!((stored - want).abs() < 6e-3 * want, "{layer:?} {parameters:?}: {stored} {want}");
         }
     }
 }
@@ -158,7 +158,7 @@ fn albedo_of_the_substrates_base() {
     }
 }
 
-/// Relative error of the albedo by three others at other indices: 0.4 % where the index is 1.2 or more.
+/// Relative error of a dielectric's albedo by three others', from index 1.2 and below it.
 #[test]
 fn plastics_of_other_indices() {
     let mut worst = [0.0_f64; 2];
@@ -171,12 +171,11 @@ fn plastics_of_other_indices() {
             let want = exact(r, degrees, |cos| fresnel_dielectric(cos, eta));
             let error = (got - want).abs() / want;
             let class = usize::from(eta < 1.2);
-            if error>0.01 { println!("{eta} {r} {degrees} {got:.6} {want:.6} {error:.4}"); }
             worst[class] = worst[class].max(error);
         }
     }
     println!("worst relative error of a dielectric's albedo: {worst:?}");
-    assert!(worst[0] < 0.012 && worst[1] < 0.03, "{worst:?}");
+    assert!(worst[0] < 0.008 && worst[1] < 0.06, "{worst:?}");
     for (n, eta) in PLASTIC_ETAS.into_iter().enumerate() {
         let weights = project_dielectric(eta);
         assert!((0..3).all(|i| (weights[i] - f64::from(u8::from(i == n))).abs() < 1e-6), "{weights:?}");

@@ -90,15 +90,16 @@ impl Samples {
     }
 }
 
-/// Roughness, angle, and the largest mean error over the lobe's energy of the 400.
+/// Roughness, angle, and the most that the mean error of the 400 may be, over the lobe's energy. The first three are
+/// what another fitter of four numbers reached; published matrices have .0265, .0240 and .0112 there.
 const CELLS: [(f64, f64, f64); 7] = [
-    (0.51, 78.0, 0.0110),
-    (0.60, 78.0, 0.0090),
-    (0.79, 61.0, 0.0040),
-    (0.30, 60.0, 0.0060),
-    (0.20, 80.0, 0.0200),
-    (0.10, 45.0, 0.0010),
-    (0.40, 87.0, 0.0400),
+    (0.51, 78.0, 0.0082),
+    (0.60, 78.0, 0.0058),
+    (0.79, 61.0, 0.0024),
+    (0.30, 60.0, 0.0020),
+    (0.20, 80.0, 0.0050),
+    (0.10, 45.0, 0.0001),
+    (0.40, 87.0, 0.0140),
 ];
 
 #[test]
@@ -126,6 +127,6 @@ fn no_rectangle_is_beyond_the_bound() {
         );
         // 360,000 directions say where a light's edge is to about 2e-4 of the energy.
         assert!(most <= mass * (bound + 2e-4), "r {r} {degrees}°: {} {bound}", most / mass);
-        assert!(mean < allowed && mean > 0.1 * allowed, "r {r} {degrees}°: {mean}");
+        assert!(mean < allowed, "r {r} {degrees}°: {mean}");
     }
 }
