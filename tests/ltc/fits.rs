@@ -1,8 +1,11 @@
 //! The tables are as near to their lobes as matrices of four numbers come, at the texels and between them.
 
 use crate::{Random, at, tables};
-use amas::ltc::{Assessment, Basis, Layer, Lobe, Objective, Parameters, assess, fit_texel};
+use amas::ltc::{
+    Assessment, Basis, Layer, Lobe, Objective, Parameters, assess, fit_layer, fit_texel, fit_work,
+};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 fn of_table(layer: Layer, parameters: Parameters) -> Assessment {
     let lookup = tables().layer(layer).lookup(parameters);
@@ -95,6 +98,25 @@ fn the_bound_holds() {
     }
 }
 
+/// A whole layer made anew is the one checked in, to the last bit on the machine that made it.
+#[test]
+fn the_table_is_what_the_fitter_makes() {
+    let steps = AtomicU64::new(0);
+    let count = || _ = steps.fetch_add(1, Ordering::Relaxed);
+    let made = fit_layer(Layer::Sheen, Objective::L1, &count).table;
+    assert_eq!(steps.into_inner(), fit_work(Layer::Sheen));
+    let stored = tables().layer(Layer::Sheen);
+    let pairs = |a: &[[f32; 4]], b: &[[f32; 4]]| -> Vec<[f32; 2]> {
+        a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| [*a, *b]).collect()
+    };
+    let numbers = [pairs(&made.shape, &stored.shape), pairs(&made.moments, &stored.moments)].concat();
+    for [made, stored] in numbers {
+        assert!((made - stored).abs() < 2e-3, "{made} {stored}");
+    }
+    let again = fit_layer(Layer::Sheen, Objective::L1, &|| ()).table;
+    assert_eq!(made, again);
+}
+
 /// Leaks stay small where surfaces are usually seen.
 #[test]
 fn leaks() {
@@ -111,6 +133,7 @@ fn leaks() {
 fn objectives() {
     let parameters = at(0.508, 78.0);
     let [l1, l2] = [Objective::L1, Objective::L2].map(|o| anew(Layer::Metal, parameters, o));
+    println!("L1 {l1:?}\nL2 {l2:?}");
     assert!(l1.variation < l2.variation && l2.variation < 0.19, "{l1:?} {l2:?}");
     assert!(l2.peak_shift < l1.peak_shift && l2.peak_shift < 4.5, "{l1:?} {l2:?}");
     assert!((l2.peak_height - 1.0).abs() < 0.08, "{l2:?}");

@@ -106,7 +106,7 @@ fn albedos_are_integrals_of_the_oracle() {
             let got = lobe.albedo();
             assert!((got - want).abs() < 2e-5 * want.max(0.1), "{layer:?} {parameters:?}: {got} {want}");
             let stored = tables().lookup(layer, parameters.r, parameters.cos).mass();
-            assert!((stored - want).abs() < 6e-3 * want, "{layer:?} {parameters:?}: {stored} {want}");
+            assert!((stored - want).abs() < 1e-2 * want, "{layer:?} {parameters:?}: {stored} {want}");
         }
     }
 }
@@ -167,7 +167,6 @@ fn plastics_of_other_indices() {
         for (r, degrees) in [(0.1, 0.0), (0.3, 45.0), (0.3, 75.0), (0.5, 85.0), (0.9, 60.0), (1.0, 0.0)] {
             let lobe = Lobe::new(Layer::Plastic, at(r, degrees));
             let got: f64 = lobe.moments().into_iter().zip(weights).map(|(m, w)| m * w).sum();
-            // The same sum of the curves at their one cosine, where the lobe is narrow; the lobe's own integral else.
             let want = exact(r, degrees, |cos| fresnel_dielectric(cos, eta));
             let error = (got - want).abs() / want;
             let class = usize::from(eta < 1.2);
