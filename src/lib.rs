@@ -19,6 +19,7 @@
 //! | [`mod@compare`] | error figures between two pictures |
 //! | [`scene`] | what the world is, as plain data, and how it is loaded |
 //! | [`mod@reference`] | the oracle in double precision, without Vulkan |
+//! | [`ltc`] | area lights by linearly transformed cosines: tables, and their fitter |
 //! | [`gpu`] | thin safe layer over `ash`, the only module with `unsafe` |
 //! | [`light_tree`] | lights in Hilbert order, and the tree over them |
 //! | [`bvh`] | a tree over what hides lights: triangles, masks, luminaires |
@@ -44,6 +45,7 @@ pub mod gpu;
 pub mod gpu_scene;
 pub mod image;
 pub mod light_tree;
+pub mod ltc;
 pub mod passes;
 pub mod probe;
 pub mod reference;

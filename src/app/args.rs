@@ -45,6 +45,11 @@ Example:
     /// Error figures of picture A against picture B, the reference
     #[command(after_help = "Example:\n  amas compare picture.exr reference.exr --mask mask.png --json")]
     Compare(CompareOptions),
+    /// Fit the tables of linearly transformed cosines for area lights, and print the residuals
+    #[command(after_help = "Examples:
+  amas fit --out src/ltc/tables.bin --maps docs/ltc
+  amas fit --layer metal --objective l2")]
+    Fit(FitOptions),
     /// Time the frame, pass by pass
     #[command(
         after_help = "Example:\n  amas bench scenes/light_grid.toml --size 640x360 --frames 20 --json bench.json"
@@ -177,6 +182,30 @@ pub(super) struct CompareOptions {
     /// Print JSON
     #[arg(long)]
     pub(super) json: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct FitOptions {
+    /// File of all layers' tables, as the program embeds it
+    #[arg(long, value_name = "FILE")]
+    pub(super) out: Option<PathBuf>,
+    /// What a fit minimises
+    #[arg(long, value_enum, default_value = "l1")]
+    pub(super) objective: ObjectiveName,
+    /// Existing folder for error maps (.png) and figures (.csv) of every layer
+    #[arg(long, value_name = "DIR")]
+    pub(super) maps: Option<PathBuf>,
+    /// Fit only this layer, several times
+    #[arg(long, value_name = "NAME")]
+    pub(super) layer: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(super) enum ObjectiveName {
+    /// Total variation: the least error under any light
+    L1,
+    /// Mean square: keeps the peak's place and height better
+    L2,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -4,6 +4,8 @@ mod args;
 mod bench;
 mod compare;
 mod default_scene;
+mod fit;
+mod fit_maps;
 mod info;
 mod measure;
 mod outputs;
@@ -35,6 +37,7 @@ pub fn main() -> ExitCode {
         )),
         Command::Reference(options) => reference::run(&options),
         Command::Compare(options) => compare::run(&options),
+        Command::Fit(options) => fit::run(&options),
         Command::Bench(options) => bench::run(&options),
         Command::Info(options) => info::run(&options),
     };

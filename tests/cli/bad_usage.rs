@@ -18,6 +18,16 @@ fn words_that_do_not_exist() {
 }
 
 #[test]
+fn fits() {
+    let folder = Folder::new();
+    folder.refused(&["fit", "--objective", "l3"], &["l3", "l1", "l2"]);
+    folder.refused(&["fit", "--layer", "tin"], &["\"tin\"", "metal"]);
+    folder.refused(&["fit", "--layer", "metal", "--out", "t.bin"], &["t.bin", "--layer"]);
+    folder.refused(&["fit", "--out", "none/t.bin"], &["no folder none"]);
+    folder.refused(&["fit", "--layer", "sheen", "--maps", "none"], &["no folder none"]);
+}
+
+#[test]
 fn sizes() {
     let folder = Folder::new();
     for size in ["5", "64x", "x48", "64*48", "64.5x48", "big", ""] {

@@ -8,6 +8,7 @@ mod bad_scenes;
 mod bad_usage;
 mod compare;
 mod devices;
+mod fit;
 mod help;
 mod pictures;
 mod report;

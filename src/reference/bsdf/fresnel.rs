@@ -45,6 +45,6 @@ pub fn conductor(cos: f64, eta: f64, k: f64) -> f64 {
 }
 
 /// Schlick's weight (1 − c)⁵, the argument clamped to [0, 1].
-pub(super) fn schlick_weight(cos: f64) -> f64 {
+pub(crate) fn schlick_weight(cos: f64) -> f64 {
     super::pow5((1.0 - cos).clamp(0.0, 1.0))
 }

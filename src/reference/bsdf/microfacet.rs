@@ -51,7 +51,7 @@ impl Ggx {
     }
 
     /// A normal visible from `wo` (Heitz 2018, *Sampling the GGX Distribution of Visible Normals*).
-    pub(super) fn sample_visible_normal(&self, wo: DVec3, xi: DVec2) -> DVec3 {
+    pub(crate) fn sample_visible_normal(&self, wo: DVec3, xi: DVec2) -> DVec3 {
         let v = self.stretch(wo).normalize();
         let across = DVec2::new(v.x, v.y).length();
         let t1 = if across > 1e-15 { DVec3::new(-v.y, v.x, 0.0) / across } else { DVec3::X };
@@ -66,7 +66,7 @@ impl Ggx {
     }
 
     /// Density per solid angle of the reflection about [`Ggx::sample_visible_normal`]: G1(wo) D(h)/(4 coso).
-    pub(super) fn pdf(&self, wo: DVec3, wi: DVec3) -> f64 {
+    pub(crate) fn pdf(&self, wo: DVec3, wi: DVec3) -> f64 {
         let (h, _) = super::half_vector(wo, wi);
         self.density(h) / (2.0 * (wo.z + self.stretched_length(wo)))
     }

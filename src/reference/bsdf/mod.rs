@@ -4,14 +4,14 @@
 //! Sampling exists for the area lights' estimator ([`crate::reference::area`]): a mixture of a cosine lobe and the
 //! microfacet lobes, whose density need not match f, only cover it.
 
-mod fresnel;
+pub(crate) mod fresnel;
 mod matte;
 mod metal;
 mod microfacet;
 mod plastic;
-mod principled;
-mod sampling;
-mod substrate;
+pub(crate) mod principled;
+pub(crate) mod sampling;
+pub(crate) mod substrate;
 
 pub use fresnel::{conductor as fresnel_conductor, dielectric as fresnel_dielectric};
 pub use matte::Matte;
@@ -82,7 +82,7 @@ impl Bsdf {
 }
 
 /// The half vector's cosine with either direction, wi·h = |wi + wo|/2, and h itself.
-fn half_vector(wo: DVec3, wi: DVec3) -> (DVec3, f64) {
+pub(crate) fn half_vector(wo: DVec3, wi: DVec3) -> (DVec3, f64) {
     let sum = wo + wi;
     let length = sum.length();
     (sum / length, (0.5 * length).min(1.0))

@@ -66,14 +66,8 @@ impl Principled {
 
     /// Diffuse, retro-reflection and the subsurface approximation.
     fn base(&self, wo: DVec3, wi: DVec3, cos_d: f64) -> DVec3 {
-        let (fl, fv) = (schlick_weight(wi.z), schlick_weight(wo.z));
-        let diffuse = (1.0 - 0.5 * fl) * (1.0 - 0.5 * fv);
-        let rr = 2.0 * self.roughness * cos_d * cos_d;
-        let retro = rr * (fl + fv + fl * fv * (rr - 1.0));
-        let fss90 = self.roughness * cos_d * cos_d;
-        let fss = lerp(1.0, fss90, fl) * lerp(1.0, fss90, fv);
-        let subsurface = 1.25 * (fss * (1.0 / (wi.z + wo.z) - 0.5) + 0.5);
-        self.base_color * FRAC_1_PI * lerp(diffuse + retro, subsurface, self.subsurface)
+        let diffuse = diffuse_and_retro(self.roughness, wo, wi, cos_d);
+        self.base_color * lerp(diffuse, subsurface(self.roughness, wo, wi, cos_d), self.subsurface)
     }
 
     fn sheen(&self, cos_d: f64) -> DVec3 {
@@ -91,9 +85,7 @@ impl Principled {
         if self.clearcoat == 0.0 {
             return 0.0;
         }
-        let masking = coat_masking(wo.z) * coat_masking(wi.z);
-        let fresnel = lerp(0.04, 1.0, schlick_weight(cos_d));
-        0.25 * self.clearcoat * masking * fresnel * gtr1(h, self.coat_alpha())
+        self.clearcoat * clearcoat(wo, wi, h, cos_d, self.coat_alpha())
     }
 
     fn coat_alpha(&self) -> f64 {
@@ -109,6 +101,28 @@ impl Principled {
     }
 }
 
+/// Diffuse and retro-reflection of a white base.
+pub(crate) fn diffuse_and_retro(roughness: f64, wo: DVec3, wi: DVec3, cos_d: f64) -> f64 {
+    let (fl, fv) = (schlick_weight(wi.z), schlick_weight(wo.z));
+    let diffuse = (1.0 - 0.5 * fl) * (1.0 - 0.5 * fv);
+    let rr = 2.0 * roughness * cos_d * cos_d;
+    FRAC_1_PI * (diffuse + rr * (fl + fv + fl * fv * (rr - 1.0)))
+}
+
+/// The subsurface approximation of a white base.
+pub(crate) fn subsurface(roughness: f64, wo: DVec3, wi: DVec3, cos_d: f64) -> f64 {
+    let (fl, fv) = (schlick_weight(wi.z), schlick_weight(wo.z));
+    let fss90 = roughness * cos_d * cos_d;
+    let fss = lerp(1.0, fss90, fl) * lerp(1.0, fss90, fv);
+    1.25 * FRAC_1_PI * (fss * (1.0 / (wi.z + wo.z) - 0.5) + 0.5)
+}
+
+/// The clear coat at weight 1, with its Fresnel term and the model's quarter.
+pub(crate) fn clearcoat(wo: DVec3, wi: DVec3, h: DVec3, cos_d: f64, alpha: f64) -> f64 {
+    let masking = coat_masking(wo.z) * coat_masking(wi.z);
+    0.25 * masking * lerp(0.04, 1.0, schlick_weight(cos_d)) * gtr1(h, alpha)
+}
+
 /// 1/(c + √(α² + c² − α²c²)).
 fn coat_masking(cos: f64) -> f64 {
     let (a2, c2) = (CLEARCOAT_MASKING_ALPHA * CLEARCOAT_MASKING_ALPHA, cos * cos);
@@ -116,7 +130,7 @@ fn coat_masking(cos: f64) -> f64 {
 }
 
 /// Generalised Trowbridge–Reitz of exponent 1, normalised like [`Ggx::density`]; 1/π at alpha ≥ 1.
-pub(super) fn gtr1(h: DVec3, alpha: f64) -> f64 {
+pub(crate) fn gtr1(h: DVec3, alpha: f64) -> f64 {
     if alpha >= 1.0 {
         return FRAC_1_PI;
     }

@@ -84,13 +84,13 @@ impl Mixture {
 }
 
 /// Cosine-weighted hemisphere by Shirley and Chiu's concentric map, which keeps neighbours together.
-fn cosine(xi: DVec2) -> DVec3 {
+pub(crate) fn cosine(xi: DVec2) -> DVec3 {
     let p = crate::reference::sampler::concentric_disk(xi);
     DVec3::new(p.x, p.y, (1.0 - p.length_squared()).max(0.0).sqrt())
 }
 
 /// A normal of density D(h) n·h: cos²θ = (1 − α^(2(1 − ξ)))/(1 − α²) (Burley 2012, appendix B).
-fn gtr1_normal(alpha: f64, xi: DVec2) -> DVec3 {
+pub(crate) fn gtr1_normal(alpha: f64, xi: DVec2) -> DVec3 {
     let a2 = alpha * alpha;
     let cos2 = ((1.0 - a2.powf(1.0 - xi.x)) / (1.0 - a2)).clamp(0.0, 1.0);
     let (sin, phi) = ((1.0 - cos2).sqrt(), 2.0 * PI * xi.y);

@@ -25,12 +25,22 @@ fn transmitted(cos: f64) -> f64 {
     x * (5.0 + x * (-10.0 + x * (10.0 + x * (-5.0 + x))))
 }
 
+/// The diffuse base without its reflectances.
+pub(crate) fn base(wo: DVec3, wi: DVec3) -> f64 {
+    28.0 / (23.0 * PI) * transmitted(wi.z) * transmitted(wo.z)
+}
+
+/// The glossy coat at reflectance 1.
+pub(crate) fn coat(ggx: Ggx, wo: DVec3, wi: DVec3, h: DVec3, cos: f64) -> f64 {
+    ggx.density(h) / (4.0 * cos * wi.z.max(wo.z))
+}
+
 impl Substrate {
     pub(super) fn eval(&self, wo: DVec3, wi: DVec3) -> DVec3 {
         let (h, cos) = super::half_vector(wo, wi);
-        let base = 28.0 / (23.0 * PI) * transmitted(wi.z) * transmitted(wo.z);
+        let base = base(wo, wi);
         let fresnel = self.specular + (DVec3::ONE - self.specular) * schlick_weight(cos);
-        let lobe = self.ggx.density(h) / (4.0 * cos * wi.z.max(wo.z));
+        let lobe = coat(self.ggx, wo, wi, h, cos);
         self.diffuse * (DVec3::ONE - self.specular) * base + fresnel * lobe
     }
 
