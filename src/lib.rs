@@ -21,6 +21,7 @@
 //! | [`mod@reference`] | the oracle in double precision, without Vulkan |
 //! | [`gpu`] | thin safe layer over `ash`, the only module with `unsafe` |
 //! | [`light_tree`] | lights in Hilbert order, and the tree over them |
+//! | [`area_lights`] | area lights as texels: outlines, convex pieces, cubature, textures |
 //! | [`bvh`] | a tree over what hides lights: triangles, masks, luminaires |
 //! | [`camera_constants`] | from a camera to what the shaders know of it |
 //! | [`draws`] | runs of triangles: which a camera can see, and from which side |
@@ -33,6 +34,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics fails"))]
 
 pub mod app;
+pub mod area_lights;
 pub mod bvh;
 pub mod camera_constants;
 pub mod compare;
