@@ -47,18 +47,20 @@ shared! {
         LEAF_LIGHTS = 32;
         /// Bits of a leaf's light count in `LightNode::lights`.
         LEAF_COUNT_BITS = 6;
-        /// log2 of the texels across a layer of the occluders' texture.
-        BVH_WIDTH_LOG2 = 11;
-        /// log2 of the rows of such a layer.
-        BVH_HEIGHT_LOG2 = 11;
-        /// Texels of a node.
-        BVH_NODE_TEXELS = 2;
+        /// log2 of the texels across the occluders' texture.
+        BVH_WIDTH_LOG2 = 12;
+        /// Texels before the nodes.
+        BVH_HEADER_TEXELS = 2;
         /// Texels of a triangle.
         BVH_TRIANGLE_TEXELS = 3;
         /// Triangles of a leaf at most.
         BVH_LEAF = 4;
-        /// Bits of a leaf's triangle count in `BvhNode::triangles`.
+        /// Bits of a leaf's triangle count in its node's last word.
         BVH_COUNT_BITS = 3;
+        /// Set in the last word of a leaf.
+        BVH_LEAF_BIT = 2147483648;
+        /// Cells of the nodes' grid along an axis: their corners are 16-bit numbers.
+        BVH_CELLS = 65535;
         /// `AreaRecord::kind`: a polygon, rectangles among them.
         AREA_POLYGON = 0;
         /// An ellipse.
@@ -178,7 +180,7 @@ shared! {
             SCENE_LIGHTS = 0: Sampled;
             /// [`LightNode`](super::LightNode)s in depth-first order, two texels each.
             SCENE_LIGHT_NODES = 1: Sampled;
-            /// What hides lights: [`BvhNode`](super::BvhNode)s in depth-first order from texel 0, then
+            /// What hides lights: a [`BvhHeader`](super::BvhHeader), [`BvhNode`](super::BvhNode)s in depth-first order,
             /// [`BvhTriangle`](super::BvhTriangle)s, [`MaskedTriangle`](super::MaskedTriangle)s and masks.
             SCENE_BVH = 2: Sampled;
             /// Area lights: [`AreaRecord`](super::AreaRecord)s from texel 0, then vertices, points of cubature, and
@@ -354,16 +356,28 @@ shared! {
             /// Texels across and down << 16; 0: no texture.
             size: uint;
         }
-        /// A node over occluding triangles.
-        BvhNode {
+        /// The grid of a tree's nodes.
+        BvhHeader {
             /// Lower corner.
             lower: vec3;
-            /// Next node where this one is missed; of the first node: how many there are.
-            skip: uint;
-            /// Upper corner.
-            upper: vec3;
-            /// Leaf: texel of the first triangle << BVH_COUNT_BITS | count; inner node: 0.
+            /// Nodes; 0: nothing hides anything.
+            nodes: uint;
+            /// Sides of a cell.
+            cell: vec3;
+            /// Triangles, for captures.
             triangles: uint;
+        }
+        /// A node over occluding triangles.
+        BvhNode {
+            /// Along x: the lower corner's cell | the upper corner's << 16.
+            x: uint;
+            /// Along y.
+            y: uint;
+            /// Along z.
+            z: uint;
+            /// Inner node: the next node where this one is missed. Leaf, which the next one follows in any case:
+            /// `BVH_LEAF_BIT` | texel of the first triangle << `BVH_COUNT_BITS` | count.
+            next: uint;
         }
         /// An occluding triangle.
         BvhTriangle {

@@ -1,4 +1,4 @@
-// Which area lights reach each cluster, and which of these are far: masks, in the texels before the lists. A light is
+// Step 4: which area lights reach each cluster, and which of these are far: masks, in the texels before the lists. A light is
 // left out only if no point of the cluster's box can be lit by it: black, or one-sided and the box behind it.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -16,7 +16,7 @@ layout(set = SET_frame, binding = FRAME_LISTS_OUT, rgba32ui) writeonly uniform u
 // What float32 may lose of a sum of products, relative to their size.
 const float ROUNDING = 1e-6;
 
-// Bit 0: reaches the box; bit 1: far from it.
+// Whether the light reaches the box, and whether it does so from afar.
 uvec2 reach(AreaLight light, vec3 middle, vec3 half_size) {
     vec3 offset = middle - light.center;
     float before = dot(light.normal, offset) + dot(abs(light.normal), half_size);
@@ -25,7 +25,8 @@ uvec2 reach(AreaLight light, vec3 middle, vec3 half_size) {
     bool black = all(lessThanEqual(light.radiance, vec3(0.0)));
     vec3 to_box = max(abs(middle - area_middle(light)) - half_size, vec3(0.0));
     float least = float(AREA_FAR) * light.extent;
-    return uvec2(!behind && !black, dot(to_box, to_box) > least * least);
+    bool reaches = !behind && !black;
+    return uvec2(reaches, reaches && dot(to_box, to_box) > least * least);
 }
 
 void main() {

@@ -1,4 +1,4 @@
-// Step 5: where each list lies, and what the lists add up to.
+// Step 6: where each list lies, and what the lists add up to.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared.glsl"

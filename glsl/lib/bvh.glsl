@@ -8,7 +8,11 @@
 
 struct BvhRay {
     vec3 origin;
-    vec3 inverse;  // of the direction, finite
+    // In cells of the nodes' grid: the origin with and without what it may be off by, and the direction's reciprocal,
+    // which is finite.
+    vec3 cell_above;
+    vec3 cell_below;
+    vec3 per_cell;
     mat3 shear;  // rows take the direction to +z of length 1; columns here, so multiply from the left
     float t_min;
     float t_max;
@@ -17,13 +21,17 @@ struct BvhRay {
 // A direction's component below this is this: over any scene's extent such a ray leaves its axis by less than an atom.
 const float LEAST_COMPONENT = 1e-20;
 
-BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, float t_max) {
+BvhRay bvh_ray(BvhHeader grid, vec3 origin, vec3 direction, float t_min, float t_max) {
     BvhRay ray;
     ray.origin = origin;
     ray.t_min = t_min;
     ray.t_max = t_max;
     vec3 away = mix(vec3(LEAST_COMPONENT), vec3(-LEAST_COMPONENT), lessThan(direction, vec3(0.0)));
-    ray.inverse = 1.0 / mix(direction, away, lessThan(abs(direction), vec3(LEAST_COMPONENT)));
+    ray.per_cell = grid.cell / mix(direction, away, lessThan(abs(direction), vec3(LEAST_COMPONENT)));
+    vec3 cell = (origin - grid.lower) / grid.cell;
+    vec3 error = 0.01 + abs(cell) * 2.4e-7;
+    ray.cell_above = cell + error;
+    ray.cell_below = cell - error;
     // z is the axis along which the direction is longest. Zeros and ones of the matrix are exact, so that a triangle's
     // corner becomes the same numbers in whichever triangle it is. Winding does not matter here.
     vec3 d = direction;
@@ -44,10 +52,11 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min, float t_max) {
     return ray;
 }
 
-// Whether the ray passes through a box between its ends; touched boxes are not lost to rounding (Ize 2013).
-bool box_met(BvhRay ray, vec3 lower, vec3 upper) {
-    vec3 a = (lower - ray.origin) * ray.inverse;
-    vec3 b = (upper - ray.origin) * ray.inverse;
+// Whether the ray passes through a node's box between its ends; touched boxes are not lost to rounding (Ize 2013).
+bool box_met(BvhRay ray, BvhNode node) {
+    uvec3 cells = uvec3(node.x, node.y, node.z);
+    vec3 a = (vec3(cells & 0xffffu) - ray.cell_above) * ray.per_cell;
+    vec3 b = (vec3(cells >> 16) - ray.cell_below) * ray.per_cell;
     vec3 near = min(a, b);
     vec3 far = max(a, b);
     float enter = max(max(near.x, near.y), max(near.z, ray.t_min));

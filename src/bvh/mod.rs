@@ -1,22 +1,26 @@
 //! What hides lights, as a tree that shaders walk: the scene's triangles, with their masks, and the luminaires that are
 //! seen.
 //!
-//! 1. [`build`]: a binary tree by the surface area heuristic over boxes ([`split`]); the same scene gives the same tree
-//!    on any number of threads.
+//! 1. `split.rs` makes a binary tree by the surface area heuristic; the same scene gives the same tree on any number of
+//!    threads.
 //! 2. Nodes lie in depth-first order, each with the index of the node that follows where it is missed: a walk needs
-//!    no stack.
-//! 3. [`texels`]: nodes, triangles, texture coordinates of masked triangles, and masks in one run of texels.
+//!    no stack. `grid.rs` packs each of them into a texel.
+//! 3. [`Bvh::texels`]: nodes, triangles, texture coordinates of masked triangles, and masks (`masks.rs`) in one run of
+//!    texels.
 
+mod grid;
 mod masks;
 mod split;
 
 use crate::scene::{Luminaire, Scene};
 use crate::shared::{
-    BVH_COUNT_BITS, BVH_NODE_TEXELS, BVH_TRIANGLE_TEXELS, BvhNode, BvhTriangle, MaskedTriangle,
+    BVH_COUNT_BITS, BVH_HEADER_TEXELS, BVH_LEAF_BIT, BVH_TRIANGLE_TEXELS, BvhHeader, BvhNode, BvhTriangle,
+    MaskedTriangle,
 };
 use glam::Vec3;
+use grid::Grid;
 use masks::Masks;
-use split::Item;
+use split::{Item, Node};
 
 /// Four words, as the device's texture holds them.
 pub type Texel = [u32; 4];
@@ -24,8 +28,9 @@ pub type Texel = [u32; 4];
 /// A tree over occluders.
 #[derive(Clone, Debug, Default)]
 pub struct Bvh {
-    /// Nodes in depth-first order; leaves hold indices into `triangles` here, and texels on the device.
-    nodes: Vec<BvhNode>,
+    /// In depth-first order.
+    nodes: Vec<Node>,
+    /// In the order of the leaves.
     triangles: Vec<BvhTriangle>,
     masked: Vec<MaskedTriangle>,
     masks: Vec<u32>,
@@ -73,17 +78,24 @@ impl Bvh {
         self.triangles.len()
     }
 
-    /// Everything as the device's texture holds it; one texel of zeros, which is a tree without nodes, where nothing is.
+    /// Everything as the device's texture holds it, from the header on.
     #[must_use]
     pub fn texels(&self) -> Vec<Texel> {
-        let triangles_at = self.nodes.len() as u32 * BVH_NODE_TEXELS;
+        let triangles_at = BVH_HEADER_TEXELS + self.nodes.len() as u32;
         let masked_at = triangles_at + self.triangles.len() as u32 * BVH_TRIANGLE_TEXELS;
         let masks_at = masked_at + 2 * self.masked.len() as u32;
-        let counted = (1 << BVH_COUNT_BITS) - 1;
-        let node = |node: &BvhNode| {
-            let (first, count) = (node.triangles >> BVH_COUNT_BITS, node.triangles & counted);
-            let texel = triangles_at + first * BVH_TRIANGLE_TEXELS;
-            BvhNode { triangles: if count == 0 { 0 } else { texel << BVH_COUNT_BITS | count }, ..*node }
+        let grid = self.nodes.first().map_or(Grid::UNIT, |root| Grid::new(&root.bounds));
+        let header = BvhHeader {
+            lower: grid.lower.to_array(),
+            nodes: self.nodes.len() as u32,
+            cell: grid.cell.to_array(),
+            triangles: self.triangles.len() as u32,
+        };
+        let node = |node: &Node| {
+            let [x, y, z] = grid.cells(&node.bounds);
+            let (first, count) = node.items;
+            let leaf = BVH_LEAF_BIT | (triangles_at + first * BVH_TRIANGLE_TEXELS) << BVH_COUNT_BITS | count;
+            BvhNode { x, y, z, next: if count == 0 { node.skip } else { leaf } }
         };
         let triangle = |triangle: &BvhTriangle| BvhTriangle {
             // Numbered from 1; 0 is no mask.
@@ -95,12 +107,89 @@ impl Bvh {
         let nodes: Vec<_> = self.nodes.iter().map(node).collect();
         let triangles: Vec<_> = self.triangles.iter().map(triangle).collect();
         let masked: Vec<_> = self.masked.iter().map(masked).collect();
-        let mut texels: Vec<Texel> = bytemuck::cast_slice(&nodes).to_vec();
-        texels.extend_from_slice(bytemuck::cast_slice(&triangles));
-        texels.extend_from_slice(bytemuck::cast_slice(&masked));
-        let (words, _) = self.masks.as_chunks::<4>();
-        texels.extend_from_slice(words);
-        texels.resize(texels.len().max(2), [0; 4]);
-        texels
+        let parts: [&[Texel]; 5] = [
+            bytemuck::cast_slice(std::slice::from_ref(&header)),
+            bytemuck::cast_slice(&nodes),
+            bytemuck::cast_slice(&triangles),
+            bytemuck::cast_slice(&masked),
+            self.masks.as_chunks::<4>().0,
+        ];
+        parts.concat()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Mesh, Vertex};
+    use glam::vec3;
+
+    /// `count` triangles of a coarse grid, many of them in the same place.
+    fn triangles(count: u32) -> Vec<BvhTriangle> {
+        let mut state = 7_u32;
+        let mut next = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            ((state >> 20) as f32 / 64.0).round()
+        };
+        let mut place = || [next(), next(), 0.5 * next()];
+        (0..count)
+            .map(|triangle| BvhTriangle {
+                a: place(),
+                b: place(),
+                c: place(),
+                triangle,
+                ..BvhTriangle::default()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn every_triangle_is_in_one_leaf_and_inside_every_box_above_it() {
+        for count in [1, 4, 5, 300, 20_000] {
+            let all = triangles(count);
+            let bvh = Bvh::over(all.clone(), Masks::default());
+            let grid = Grid::new(&bvh.nodes[0].bounds);
+            let mut seen = vec![0; all.len()];
+            for (index, node) in bvh.nodes.iter().enumerate() {
+                assert!(node.skip as usize > index && node.skip as usize <= bvh.nodes.len());
+                assert!(node.items.1 == 0 || node.skip as usize == index + 1);
+                let cells = grid.cells(&node.bounds);
+                for below in &bvh.nodes[index..node.skip as usize] {
+                    let (first, count) = below.items;
+                    for triangle in &bvh.triangles[first as usize..][..count as usize] {
+                        seen[triangle.triangle as usize] += u32::from(std::ptr::eq(node, below));
+                        for corner in [triangle.a, triangle.b, triangle.c].map(Vec3::from) {
+                            let place = (corner - grid.lower).as_dvec3() / grid.cell.as_dvec3();
+                            let inside = |axis: usize| {
+                                let cell = cells[axis];
+                                (f64::from(cell & 0xffff)..=f64::from(cell >> 16)).contains(&place[axis])
+                            };
+                            assert!((0..3).all(inside), "{place} outside {cells:x?}");
+                        }
+                    }
+                }
+            }
+            assert_eq!(seen, vec![1; all.len()]);
+        }
+    }
+
+    #[test]
+    fn same_tree_on_any_number_of_threads() {
+        let all = triangles(30_000);
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| Bvh::over(all.clone(), Masks::default()).texels())
+        };
+        assert_eq!(with(1), with(3));
+    }
+
+    #[test]
+    fn one_place_and_no_place() {
+        assert_eq!(Bvh::default().texels().len(), 2);
+        let corner = Vertex { position: vec3(1.0, 2.0, 3.0).to_array(), ..Vertex::default() };
+        let mesh = Mesh { vertices: vec![corner], triangles: vec![[0; 3]; 100], material: 0 };
+        let bvh = Bvh::new(&Scene { meshes: vec![mesh], ..Scene::default() }, Vec3::ZERO);
+        assert_eq!(bvh.triangle_count(), 100);
+        assert!(bvh.texels()[..2].iter().flatten().all(|&word| f32::from_bits(word).is_finite()));
     }
 }

@@ -1,7 +1,7 @@
 //! The tree's shape: binned surface area heuristic (Wald 2007, *On fast Construction of SAH-based Bounding Volume
 //! Hierarchies*), with a child's subtrees built side by side where they are large.
 
-use crate::shared::{BVH_COUNT_BITS, BVH_LEAF, BvhNode, BvhTriangle};
+use crate::shared::{BVH_LEAF, BvhTriangle};
 use glam::Vec3;
 
 /// Bins along each axis.
@@ -32,10 +32,21 @@ impl Item {
     }
 }
 
+/// A box.
 #[derive(Clone, Copy, Debug)]
-struct Bounds {
-    lower: Vec3,
-    upper: Vec3,
+pub(super) struct Bounds {
+    pub(super) lower: Vec3,
+    pub(super) upper: Vec3,
+}
+
+/// A node of the tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub(super) bounds: Bounds,
+    /// Next node where this one is missed.
+    pub(super) skip: u32,
+    /// Leaf: first item and how many; an inner node has none.
+    pub(super) items: (u32, u32),
 }
 
 impl Bounds {
@@ -56,8 +67,8 @@ impl Bounds {
     }
 }
 
-/// Nodes over `items`, which are put into the order of the leaves. Leaves hold the index of their first item.
-pub(super) fn tree(items: &mut [Item]) -> Vec<BvhNode> {
+/// Nodes over `items`, which are put into the order of the leaves.
+pub(super) fn tree(items: &mut [Item]) -> Vec<Node> {
     if items.is_empty() {
         return Vec::new();
     }
@@ -70,16 +81,11 @@ pub(super) fn tree(items: &mut [Item]) -> Vec<BvhNode> {
 }
 
 /// `skip` of each node is the size of its subtree, so that subtrees need not know where they will lie.
-fn subtree(items: &mut [Item], first: usize, depth: u32) -> Vec<BvhNode> {
+fn subtree(items: &mut [Item], first: usize, depth: u32) -> Vec<Node> {
     let bounds = Bounds::around(items);
-    let node = |triangles, skip| BvhNode {
-        lower: bounds.lower.to_array(),
-        skip,
-        upper: bounds.upper.to_array(),
-        triangles,
-    };
+    let node = |items, skip| Node { bounds, skip, items };
     let Some(middle) = split(items, &bounds, depth) else {
-        return vec![node((first << BVH_COUNT_BITS | items.len()) as u32, 1)];
+        return vec![node((first as u32, items.len() as u32), 1)];
     };
     let large = items.len() >= PARALLEL;
     let (left, right) = items.split_at_mut(middle);
@@ -90,10 +96,9 @@ fn subtree(items: &mut [Item], first: usize, depth: u32) -> Vec<BvhNode> {
         (below(left, first), below(right, first + middle))
     };
     // A ray that meets anything is done: the larger box is the likelier to end the walk.
-    let area =
-        |nodes: &[BvhNode]| Bounds { lower: nodes[0].lower.into(), upper: nodes[0].upper.into() }.area();
-    let (one, other) = if area(&other) > area(&one) { (other, one) } else { (one, other) };
-    let mut nodes = vec![node(0, (1 + one.len() + other.len()) as u32)];
+    let (one, other) =
+        if other[0].bounds.area() > one[0].bounds.area() { (other, one) } else { (one, other) };
+    let mut nodes = vec![node((0, 0), (1 + one.len() + other.len()) as u32)];
     nodes.extend(one);
     nodes.extend(other);
     nodes

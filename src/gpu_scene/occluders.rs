@@ -3,7 +3,7 @@
 use crate::bvh::Bvh;
 use crate::error::Result;
 use crate::gpu::{DescriptorSet, Device, Format, Image, ImageDescription, Use};
-use crate::shared::{self, BVH_HEIGHT_LOG2, BVH_WIDTH_LOG2};
+use crate::shared::{self, BVH_WIDTH_LOG2};
 use std::sync::Arc;
 
 /// The texture that `glsl/bind/bvh.glsl` reads.
@@ -13,21 +13,19 @@ impl Occluders {
     /// Uploads a tree; an empty one hides nothing.
     ///
     /// # Errors
-    /// [`crate::Error::Vulkan`] where memory is short.
+    /// [`crate::Error::Vulkan`] where memory is short, or where there are more triangles than the device's textures hold:
+    /// some four million, or sixteen on most.
     pub fn new(device: &Arc<Device>, bvh: &Bvh) -> Result<Self> {
-        let (width, most) = (1 << BVH_WIDTH_LOG2, 1 << BVH_HEIGHT_LOG2);
+        let width = 1 << BVH_WIDTH_LOG2;
         let mut texels = bvh.texels();
-        let rows = texels.len().div_ceil(width);
-        let layers = rows.div_ceil(most);
-        let height = if layers > 1 { most } else { rows };
-        texels.resize(layers * height * width, [0; 4]);
+        texels.resize(texels.len().next_multiple_of(width), [0; 4]);
         let image = Image::new(
             device,
             &ImageDescription {
                 name: "occluders",
                 format: Format::R32G32B32A32_UINT,
-                size: [width as u32, height as u32],
-                layers: Some(layers as u32),
+                size: [width as u32, (texels.len() / width) as u32],
+                layers: None,
                 mips: 1,
                 uses: &[Use::TransferWrite, Use::Texture],
             },

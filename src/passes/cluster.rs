@@ -3,13 +3,13 @@
 //! 1. `slices`: which depth slices each tile's pixels lie in.
 //! 2. `scan_tiles`: ids for the occupied (tile, slice) pairs, the clusters.
 //! 3. `bounds`: each pixel's cluster id; each cluster's box of samples.
-//! 4. `count`: lights that reach each cluster, by a walk over the light tree.
-//! 5. `scan_lists`: where each list lies.
-//! 6. `write`: the lists, in Hilbert order, four indices a texel.
-//! 7. `area`: which area lights reach each cluster, one bit each, in the texels before the lists.
+//! 4. `area`: which area lights reach each cluster, one bit each, in the texels before the lists.
+//! 5. `count`: lights that reach each cluster, by a walk over the light tree.
+//! 6. `scan_lists`: where each list lies.
+//! 7. `write`: the lists, in Hilbert order, four indices a texel.
 //!
-//! Ids and lists come from scans, never from atomics, so they are the same on every run. Steps 4 to 6 are recorded only
-//! where the scene has lights with a range, step 7 only where it has many area lights, and the others where it has either.
+//! Ids and lists come from scans, never from atomics, so they are the same on every run. Step 4 is recorded only where the
+//! scene has many area lights, steps 5 to 7 where it has lights with a range, and the others where it has either.
 
 use super::{PassInputs, View};
 use crate::error::{Error, Result};
@@ -187,6 +187,7 @@ impl ClusterPass {
             if let Some(area) = &self.area {
                 cmd.bind_compute(area, &sets);
                 cmd.dispatch_indirect(&targets.counters);
+                cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
             }
             if let Some(lists) = &self.lists {
                 cmd.bind_compute(&lists.count, &sets);

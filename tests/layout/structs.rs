@@ -8,7 +8,8 @@ use crate::modules;
 use crate::spirv::{Module, decoration};
 
 /// Structs that shaders take from textures.
-const IN_TEXELS: [&str; 5] = ["LightNode", "BvhNode", "BvhTriangle", "MaskedTriangle", "AreaRecord"];
+const IN_TEXELS: [&str; 6] =
+    ["LightNode", "BvhHeader", "BvhNode", "BvhTriangle", "MaskedTriangle", "AreaRecord"];
 
 #[test]
 fn structs_lie_in_shaders_as_they_do_in_rust() {
@@ -37,13 +38,16 @@ fn light_nodes_fill_two_texels() {
     assert_eq!(layout.size, 32);
 }
 
-/// So do those of the occluders; `triangle_hides` and `mask_holds` in glsl/bind/bvh.glsl read the others.
+/// So do those of the occluders, as glsl/bind/bvh.glsl reads them.
 #[test]
 fn occluders_fill_whole_texels() {
     let of = |name| LAYOUTS.iter().find(|layout| layout.name == name).unwrap();
+    let header = of("BvhHeader");
+    assert_eq!(header.fields, [("lower", 0), ("nodes", 12), ("cell", 16), ("triangles", 28)]);
+    assert_eq!(header.size, 16 * shared::BVH_HEADER_TEXELS as usize);
     let node = of("BvhNode");
-    assert_eq!(node.fields, [("lower", 0), ("skip", 12), ("upper", 16), ("triangles", 28)]);
-    assert_eq!(node.size, 16 * shared::BVH_NODE_TEXELS as usize);
+    assert_eq!(node.fields, [("x", 0), ("y", 4), ("z", 8), ("next", 12)]);
+    assert_eq!(node.size, 16);
     let triangle = of("BvhTriangle");
     let corners = [("a", 0), ("masked", 12), ("b", 16), ("mesh", 28), ("c", 32), ("triangle", 44)];
     assert_eq!(triangle.fields, corners);
