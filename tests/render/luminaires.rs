@@ -72,7 +72,7 @@ fn textures_of_luminaires_are_the_oracle_s() {
 /// Far away a pixel holds many texels, and shows their mean.
 #[test]
 fn small_pictures_of_luminaires_are_filtered() {
-    let texture = |x: u32, y: u32| if (x + y) % 2 == 0 { 255 } else { 0 };
+    let texture = |x: u32, y: u32| if (x + y).is_multiple_of(2) { 255 } else { 0 };
     let mut bytes = Vec::new();
     image::RgbaImage::from_fn(255, 129, |x, y| Rgba([texture(x, y), 255, 0, 255]))
         .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
