@@ -23,6 +23,9 @@ use crate::targets::Targets;
 use std::sync::Arc;
 use timing::Stopwatch;
 
+/// Up to so many area lights every pixel evaluates them all.
+const AREA_LIGHTS_WITHOUT_MASKS: u32 = 8;
+
 /// A scene's frame on a device.
 pub struct Frame {
     device: Arc<Device>,
@@ -42,6 +45,7 @@ pub struct Frame {
     samples: u32,
     slices: u32,
     draws: Vec<VisibleDraw>,
+    luminaires: Vec<VisibleDraw>,
 }
 
 impl Frame {
@@ -55,11 +59,14 @@ impl Frame {
         let targets = Targets::new(device, settings.size)?;
         let tiles = tiles(settings.size);
         let pass_names = pass_names(work);
+        let mask = if work.masks { work.area.div_ceil(shared::AREA_MASK_LIGHTS) } else { 0 };
         let frame = Self {
             prepass: Prepass::new(&inputs, &targets)?,
-            cluster: work.clustered.then(|| ClusterPass::new(&inputs)).transpose()?,
+            cluster: clustered(work)
+                .then(|| ClusterPass::new(&inputs, work.lists, work.masks))
+                .transpose()?,
             forward: Forward::new(&inputs, &targets, work)?,
-            lists: ClusterTargets::new(device, tiles, Capacity::start(tiles))?,
+            lists: ClusterTargets::new(device, tiles, Capacity::start(tiles, mask))?,
             constants: Buffer::new(device, "frame constants", BufferUse::Uniform, 1)?,
             set: scene.layout.allocate(shared::frame::SET, 1)?,
             readback: Buffer::new(device, "counters readback", BufferUse::Readback, 1)?,
@@ -69,6 +76,7 @@ impl Frame {
             samples: 0,
             slices: 0,
             draws: Vec::new(),
+            luminaires: Vec::new(),
             targets,
             device: device.clone(),
             scene: scene.clone(),
@@ -181,14 +189,17 @@ impl Frame {
         constants.max_list = self.settings.max_lights_per_cluster;
         constants.cluster_capacity = self.lists.capacity.clusters;
         constants.list_capacity = self.lists.capacity.texels;
+        constants.area_lights = self.scene.area.count;
+        constants.area_texels = self.lists.capacity.mask;
         constants.background = self.settings.background;
         self.slices = constants.slice_count;
         self.draws = visible(&self.scene.draws, &constants);
+        self.luminaires = visible(&self.scene.area.luminaires, &constants);
         self.constants.write(&[constants])
     }
 
     fn view(&self) -> View<'_> {
-        View { scene: &self.scene, draws: &self.draws, frame: self.set.get(0) }
+        View { scene: &self.scene, draws: &self.draws, luminaires: &self.luminaires, frame: self.set.get(0) }
     }
 
     fn bind(&self) {
@@ -206,21 +217,29 @@ fn work(scene: &GpuScene, settings: &FrameSettings) -> Work {
     let lights = &scene.lights;
     let drawn = !scene.draws.is_empty();
     let first_unranged = if settings.brute_force { 0 } else { lights.ranged };
+    let area = if drawn { scene.area.count } else { 0 };
     Work {
         unranged: drawn && lights.lights.len() > first_unranged,
         first_unranged: first_unranged as u32,
         background: settings.background != [0.0; 3],
-        clustered: drawn && first_unranged > 0,
+        lists: drawn && first_unranged > 0,
+        area,
+        masks: area > AREA_LIGHTS_WITHOUT_MASKS && !settings.brute_force,
+        luminaires: !scene.area.luminaires.is_empty(),
         tonemap: settings.tonemap,
     }
+}
+
+fn clustered(work: Work) -> bool {
+    work.lists || work.masks
 }
 
 fn pass_names(work: Work) -> Vec<&'static str> {
     let passes = [
         ("prepass", true),
-        ("cluster", work.clustered),
+        ("cluster", clustered(work)),
         ("direct", true),
-        ("indirect", work.clustered),
+        ("indirect", work.lists),
         ("present", true),
     ];
     passes.into_iter().filter(|(_, recorded)| *recorded).map(|(name, _)| name).collect()

@@ -1,9 +1,12 @@
 //! A scene on the device: triangles sorted by what draws them, materials, textures, lights.
 
+mod area;
 mod coincident;
+mod geometry;
 pub mod occluders;
 mod textures;
 
+use crate::area_lights::AreaLights;
 use crate::bvh::Bvh;
 use crate::draws::{Draw, is_closed};
 use crate::error::{Error, Result};
@@ -13,9 +16,10 @@ use crate::gpu::{
 };
 use crate::light_tree::LightTree;
 use crate::scene::material::PARAMETER_COUNT;
-use crate::scene::{Material, Model, Parameter, PointLight, Scene, Vertex};
+use crate::scene::{Luminaire as Surface, Material, Model, Parameter, PointLight, Scene, Vertex};
 use crate::shared::{self, LightNode, MaterialRecord};
-use coincident::Drawn;
+pub use area::{Area, Luminaire};
+use geometry::{Geometry, bounds, origin};
 use glam::Vec3;
 use occluders::Occluders;
 use rayon::prelude::*;
@@ -57,6 +61,8 @@ pub struct GpuScene {
     pub variants: Vec<Variant>,
     /// Point lights in device order.
     pub lights: LightTree,
+    /// Area lights.
+    pub area: Area,
     /// World position of the device's origin. A scene far from the world's is moved to its own, where float32 is fine
     /// enough: 1e5 m out, 46 % of pixels were more than 1 % off.
     pub origin: Vec3,
@@ -84,8 +90,10 @@ impl GpuScene {
             &[shared::frame::BINDINGS, shared::scene::BINDINGS, shared::material::BINDINGS],
         )?);
         let (variants, of_mesh) = variants(scene)?;
-        let origin = origin(scene);
-        let (vertices, triangles, draws) = geometry(scene, &of_mesh, origin);
+        let seen = scene.area_lights.iter().map(|light| light.visible.then(|| Surface::new(light)));
+        let seen: Vec<Option<Surface>> = seen.collect();
+        let origin = origin(scene, &seen);
+        let geometry = Geometry::new(scene, &of_mesh, &seen, origin);
         let lights: Vec<_> = scene
             .point_lights
             .iter()
@@ -103,6 +111,8 @@ impl GpuScene {
         let bvh = if scene.render.shadows { Bvh::new(scene, origin) } else { Bvh::default() };
         let occluders = Occluders::new(device, &bvh)?;
         occluders.bind(set.get(0));
+        let area = Area::new(device, &AreaLights::new(scene, origin)?, geometry.luminaires)?;
+        area.bind(set.get(0));
         let textures = Textures::new(device, scene)?;
         let materials = textures.bind(&layout, scene)?;
         for index in 0..scene.materials.len() {
@@ -111,13 +121,14 @@ impl GpuScene {
         Ok(Self {
             set,
             materials,
-            vertices: Buffer::with(device, "vertices", BufferUse::Vertex, &vertices)?,
-            triangles: Buffer::with(device, "triangles", BufferUse::Index, &triangles)?,
-            draws,
+            vertices: Buffer::with(device, "vertices", BufferUse::Vertex, &geometry.vertices)?,
+            triangles: Buffer::with(device, "triangles", BufferUse::Index, &geometry.triangles)?,
+            draws: geometry.draws,
             variants,
             origin,
-            bounds: bounds(&vertices),
+            bounds: bounds(&geometry.vertices),
             lights,
+            area,
             layout,
             _textures: textures,
             _records: records,
@@ -130,7 +141,6 @@ impl GpuScene {
 
 fn reject_unsupported(scene: &Scene) -> Result<()> {
     let unsupported = [
-        (!scene.area_lights.is_empty(), "area lights", "remove the area lights, or use `amas reference`"),
         (scene.render.vpls > 0, "indirect light", "set indirect.vpls = 0"),
         (scene.render.shadows, "shadows", "set shadows = false"),
     ];
@@ -228,64 +238,6 @@ fn record(material: &Material) -> MaterialRecord {
         row[..3].copy_from_slice(&value.constant);
     }
     record
-}
-
-/// All triangles in one buffer, sorted by variant and material, so that pipelines change as rarely as they can.
-fn geometry(
-    scene: &Scene,
-    variants: &[MeshVariants],
-    origin: Vec3,
-) -> (Vec<Vertex>, Vec<[u32; 3]>, Vec<Draw>) {
-    let mut order: Vec<_> =
-        scene.meshes.iter().zip(variants).filter(|(mesh, _)| !mesh.triangles.is_empty()).collect();
-    order.sort_by_key(|(mesh, variants)| (variants.own, variants.from_outside, mesh.material));
-    let mut vertices = Vec::new();
-    let mut triangles = Vec::new();
-    let mut draws = Vec::new();
-    let mut drawn = Drawn::default();
-    for (mesh, variants) in order {
-        let base = vertices.len() as u32;
-        let first = triangles.len() as u32;
-        let moved = |vertex: &Vertex| Vertex {
-            position: (Vec3::from(vertex.position) - origin).to_array(),
-            ..*vertex
-        };
-        let start = vertices.len();
-        vertices.extend(mesh.vertices.iter().map(moved));
-        let both_sides = scene.materials[mesh.material as usize].two_sided;
-        let corners = |triangle: &[u32; 3]| triangle.map(|index| mesh.vertices[index as usize].position);
-        let fresh = mesh.triangles.iter().filter(|triangle| drawn.insert(corners(triangle), both_sides));
-        triangles.extend(fresh.map(|triangle| triangle.map(|index| index + base)));
-        draws.push(Draw {
-            variant: variants.own,
-            from_outside: variants.from_outside,
-            material: mesh.material,
-            first,
-            count: triangles.len() as u32 - first,
-            bounds: bounds(&vertices[start..]).unwrap_or_default(),
-        });
-    }
-    (vertices, triangles, draws)
-}
-
-/// The scene's middle where it lies far from the world's origin for its size, else that origin. Differences of
-/// neighbouring float32 values are exact.
-fn origin(scene: &Scene) -> Vec3 {
-    let all = scene.meshes.iter().flat_map(|mesh| bounds(&mesh.vertices));
-    let Some([lower, upper]) = all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]) else { return Vec3::ZERO };
-    let middle = (lower + upper) / 2.0;
-    let far = middle.abs().max_element() > 4.0 * (upper - lower).max_element();
-    if far { middle.as_vec3() } else { Vec3::ZERO }
-}
-
-fn bounds(vertices: &[Vertex]) -> Option<[glam::DVec3; 2]> {
-    let place = |vertex: &Vertex| glam::Vec3::from(vertex.position).as_dvec3();
-    let first = place(vertices.first()?);
-    Some(
-        vertices
-            .iter()
-            .fold([first; 2], |[lower, upper], vertex| [lower.min(place(vertex)), upper.max(place(vertex))]),
-    )
 }
 
 /// Lights as two RGBA32F texels each, with the null light behind them: the padding of the lists.

@@ -22,6 +22,7 @@
 //! | [`ltc`] | area lights by linearly transformed cosines: tables, and their fitter |
 //! | [`gpu`] | thin safe layer over `ash`, the only module with `unsafe` |
 //! | [`light_tree`] | lights in Hilbert order, and the tree over them |
+//! | [`area_lights`] | area lights as texels: outlines, convex pieces, cubature, textures |
 //! | [`bvh`] | a tree over what hides lights: triangles, masks, luminaires |
 //! | [`camera_constants`] | from a camera to what the shaders know of it |
 //! | [`draws`] | runs of triangles: which a camera can see, and from which side |
@@ -34,6 +35,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics fails"))]
 
 pub mod app;
+pub mod area_lights;
 pub mod bvh;
 pub mod camera_constants;
 pub mod compare;

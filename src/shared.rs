@@ -61,6 +61,30 @@ shared! {
         BVH_LEAF_BIT = 2147483648;
         /// Cells of the nodes' grid along an axis: their corners are 16-bit numbers.
         BVH_CELLS = 65535;
+        /// `AreaRecord::kind`: a polygon, rectangles among them.
+        AREA_POLYGON = 0;
+        /// An ellipse.
+        AREA_ELLIPSE = 1;
+        /// A thin cylinder.
+        AREA_LINE = 2;
+        /// Bits of the kind proper.
+        AREA_KIND_BITS = 2;
+        /// Flag in `AreaRecord::kind`: emits on both sides.
+        AREA_TWO_SIDED = 4;
+        /// Flag in `AreaRecord::kind`: has a texture.
+        AREA_TEXTURED = 8;
+        /// log2 of the texels of an area light's record.
+        AREA_RECORD_LOG2 = 3;
+        /// log2 of the texels across a layer of the area lights' texture.
+        AREA_WIDTH_LOG2 = 11;
+        /// log2 of the rows of such a layer.
+        AREA_HEIGHT_LOG2 = 11;
+        /// Area lights of a scene at most.
+        MAX_AREA_LIGHTS = 4096;
+        /// Area lights in a texel of a cluster's mask: two words of lights that reach it, two of those that are far.
+        AREA_MASK_LIGHTS = 64;
+        /// A light is far from a cluster if it is this many times its own radius away.
+        AREA_FAR = 32;
         /// Texture slots of a material.
         MATERIAL_TEXTURES = 8;
         /// A parameter without a texture.
@@ -111,6 +135,18 @@ shared! {
         AOV_COVERAGE = 4;
         /// Specialisation constant of parameter p's texture slot is this + p.
         SPEC_SLOT = 16;
+        /// Specialisation constants of area lights: some are polygons.
+        SPEC_POLYGONS = 32;
+        /// Some are ellipses.
+        SPEC_ELLIPSES = 33;
+        /// Some are lines.
+        SPEC_LINES = 34;
+        /// Some have textures.
+        SPEC_TEXTURED_LIGHTS = 35;
+        /// Some emit on both sides.
+        SPEC_TWO_SIDED_LIGHTS = 36;
+        /// Clusters have masks that say which area lights reach them.
+        SPEC_LIGHT_MASKS = 37;
     }
     sets {
         /// Descriptors of a frame: targets and clusters.
@@ -147,6 +183,9 @@ shared! {
             /// What hides lights: a [`BvhHeader`](super::BvhHeader), [`BvhNode`](super::BvhNode)s in depth-first order,
             /// [`BvhTriangle`](super::BvhTriangle)s, [`MaskedTriangle`](super::MaskedTriangle)s and masks.
             SCENE_BVH = 2: Sampled;
+            /// Area lights: [`AreaRecord`](super::AreaRecord)s from texel 0, then vertices, points of cubature, and
+            /// the texels of their textures.
+            SCENE_AREA_LIGHTS = 3: Sampled;
         }
         /// A material: its textures and constants.
         material = 2 {
@@ -212,6 +251,10 @@ shared! {
             node_count: uint;
             /// Added to the level of detail of material textures.
             texture_bias: float;
+            /// Area lights in all.
+            area_lights: uint;
+            /// Texels of a cluster's mask of area lights, which lie before the lists; 0: every light reaches every pixel.
+            area_texels: uint;
         }
         /// Push constants of a draw.
         DrawConstants {
@@ -273,6 +316,45 @@ shared! {
             upper: vec3;
             /// Leaf: first light << LEAF_COUNT_BITS | count; inner node: 0.
             lights: uint;
+        }
+        /// An area light. Vectors that a kind does not have are 0; first vertices and points are those of the texture.
+        AreaRecord {
+            /// Centre; of a line, its first end. A polygon's is that of its bounding rectangle along its first edge.
+            center: vec3;
+            /// `AREA_*`: kind and flags.
+            kind: uint;
+            /// Half axis; of a line, from its first end to its second.
+            u: vec3;
+            /// Radius of a sphere about the centre, or a line's middle, that holds it.
+            extent: float;
+            /// Half axis.
+            v: vec3;
+            /// Of a line.
+            radius: float;
+            /// Unit, towards the front.
+            normal: vec3;
+            /// First vertex of its rings.
+            ring_first: uint;
+            /// Emitted, without the texture.
+            radiance: vec3;
+            /// Vertices of all rings.
+            ring_count: uint;
+            /// First vertex of its convex pieces.
+            piece_first: uint;
+            /// Vertices of all pieces.
+            piece_count: uint;
+            /// The point that stands for the whole light; the coarse ones and then the fine ones follow.
+            point_first: uint;
+            /// Coarse points, and fine ones << 16.
+            points: uint;
+            /// (s, t, 1) to the first texture coordinate.
+            uv_s: vec3;
+            /// First texel of its texture.
+            heap: uint;
+            /// (s, t, 1) to the second.
+            uv_t: vec3;
+            /// Texels across and down << 16; 0: no texture.
+            size: uint;
         }
         /// The grid of a tree's nodes.
         BvhHeader {
@@ -366,8 +448,12 @@ shared! {
         TilePairs {
             /// Evaluated by the shading passes.
             evaluated: uint;
-            /// Within the light's range.
+            /// Within the light's range, or before an area light.
             useful: uint;
+            /// Area lights among those evaluated.
+            area: uint;
+            /// Area lights that no mask would have left out.
+            area_all: uint;
         }
     }
 }

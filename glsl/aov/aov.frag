@@ -23,7 +23,8 @@ void main() {
         value = vec4(vec3(float(draw.material)), 1.0);
     } else if (AOV == AOV_LIGHT_COUNT) {
         uint unranged = frame.light_count - frame.direct_begin;
-        value = vec4(vec3(float(list_at(ivec2(gl_FragCoord.xy)).count + unranged)), 1.0);
+        ivec2 pixel = ivec2(gl_FragCoord.xy);
+        value = vec4(vec3(float(list_at(pixel).count + unranged + area_count(pixel))), 1.0);
     } else {
         value = vec4(1.0);
     }

@@ -11,10 +11,12 @@ struct LightList {
     uint count;  // lights
 };
 
-// The list of the cluster that the pixel's surface lies in. The id was stored by the cluster pass: computing it here
-// again could round to another slice.
+// The cluster that the pixel's surface lies in. The id was stored by the cluster pass: computing it here again could
+// round to another slice.
+uint cluster_at(ivec2 pixel) { return texelFetch(cluster_ids, pixel, 0).r; }
+
 LightList list_at(ivec2 pixel) {
-    uint id = texelFetch(cluster_ids, pixel, 0).r;
+    uint id = cluster_at(pixel);
     // Past the capacity the frame is rendered again with more room; until then nothing out of bounds is read.
     if (id >= frame.cluster_capacity) return LightList(0u, 0u);
     uint count = min(clusters[id].reaching, frame.max_list);
@@ -24,5 +26,23 @@ LightList list_at(ivec2 pixel) {
 
 // Four indices of a list; past its end they name the null light.
 uvec4 list_indices(uint texel) { return texelFetch(light_lists, list_texel(texel), 0); }
+
+// 32 area lights from number 32 · word on: a bit for those that reach the cluster, and one for those that are far.
+uvec2 area_mask(uint cluster, uint word) {
+    if (cluster >= frame.cluster_capacity) return uvec2(0u);
+    uvec4 masks = texelFetch(light_lists, list_texel(cluster * frame.area_texels + (word >> 1)), 0);
+    return (word & 1u) == 0u ? masks.xz : masks.yw;
+}
+
+// Area lights that a pixel evaluates.
+uint area_count(ivec2 pixel) {
+    if (frame.area_texels == 0u) return frame.area_lights;
+    uint count = 0u;
+    uint cluster = cluster_at(pixel);
+    for (uint word = 0u; word < 2u * frame.area_texels; ++word) {
+        count += uint(bitCount(area_mask(cluster, word).x));
+    }
+    return count;
+}
 
 #endif

@@ -50,6 +50,8 @@ void write_bounds(uint id, uint rank) {
     float pad = PAD * (farthest + 0.1 * max(eye.x, max(eye.y, eye.z)));
     clusters[id].lower = lower - pad;
     clusters[id].upper = upper + pad;
+    // Until step 5 counts, which it does only where there are lights for lists.
+    clusters[id].reaching = 0u;
 }
 
 void main() {

@@ -1,4 +1,4 @@
-// Step 4: how many lights reach each cluster.
+// Step 5: how many lights reach each cluster.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,4 +1,4 @@
-// Step 5: where each list lies, and what the lists add up to.
+// Step 6: where each list lies, and what the lists add up to.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared.glsl"
@@ -28,13 +28,15 @@ void main() {
         longest[lane] = max(longest[lane], reaching);
     }
     uint total;
-    uint texel = exclusive_sum(texels, total);
+    // Masks of area lights come first.
+    uint masks = frame.cluster_capacity * frame.area_texels;
+    uint texel = masks + exclusive_sum(texels, total);
     for (uint id = range.x; id < range.y; ++id) {
         clusters[id].list = texel;
         texel += (min(clusters[id].reaching, frame.max_list) + 3u) / 4u;
     }
     if (lane == 0u) {
-        counters.list_texels = total;
+        counters.list_texels = masks + total;
         counters.longest = 0u;
         for (uint i = 0u; i < SCAN_GROUP; ++i) counters.longest = max(counters.longest, longest[i]);
     }

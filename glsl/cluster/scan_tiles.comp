@@ -24,5 +24,11 @@ void main() {
         counters.groups_y = (groups + MAX_GROUPS - 1u) / MAX_GROUPS;
         counters.groups_z = 1u;
         counters.clusters = total;
+        // Of lists, should there be none.
+        counters.list_texels = 0u;
+        counters.entries = 0u;
+        counters.longest = 0u;
+        counters.overflowed = 0u;
+        counters.dropped = 0u;
     }
 }

@@ -1,4 +1,4 @@
-// Step 6: the lists, four indices a texel, padded with the null light so that the shading loop has no tail.
+// Step 7: the lists, four indices a texel, padded with the null light so that the shading loop has no tail.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -26,7 +26,7 @@ void append(uint light) {
 }
 
 void append_all(uint first, uint hits) {
-    // At most max_list iterations in all, well below lavapipe's limit. Not max_list itself: step 4 made room for `kept`.
+    // At most max_list iterations in all, well below lavapipe's limit. Not max_list itself: step 5 made room for `kept`.
     for (; hits != 0u && written < kept; hits &= hits - 1u) append(first + uint(findLSB(hits)));
 }
 
@@ -40,7 +40,7 @@ void main() {
     kept = min(clusters[id].reaching, frame.max_list);
     if (texel + (kept + 3u) / 4u > frame.list_capacity) return;
     visit_lights(clusters[id].lower, clusters[id].upper);
-    // Where this pipeline rounds a distance up that step 4's rounded down, more than a tail is left: none of it may stay
+    // Where this pipeline rounds a distance up that step 5's rounded down, more than a tail is left: none of it may stay
     // undefined.
     uint end = clusters[id].list + (kept + 3u) / 4u;
     while (texel < end) append(frame.light_count);

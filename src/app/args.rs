@@ -111,10 +111,11 @@ pub(super) struct RenderOptions {
     /// Frames A up to, not including, B along the camera's path, 30 a second; %04d in FILE is the frame
     #[arg(long, value_name = "A..B", value_parser = parse_range)]
     pub(super) frames: Option<std::ops::Range<u32>>,
-    /// Report as JSON
+    /// Report as JSON; its pairs.area_saved counts what the clusters' masks spared of area lights
     #[arg(long, value_name = "FILE.json")]
     pub(super) report: Option<PathBuf>,
-    /// Output variable, several times: position, normal, material, light_count, direct or indirect
+    /// Output variable, several times: position, normal, material (-1: a light that is seen), light_count, direct or
+    /// indirect
     #[arg(long, value_name = "NAME=FILE.exr", value_parser = parse_pair)]
     pub(super) aov: Vec<(String, String)>,
 }

@@ -46,6 +46,10 @@ pub(super) struct Clusters {
 pub(super) struct Pairs {
     evaluated: u64,
     useful: u64,
+    /// Area lights among those evaluated; luminaires count as surfaces.
+    area_evaluated: u64,
+    /// Pairs of pixel and area light that the clusters' masks left out.
+    area_saved: u64,
     per_pixel: f64,
     /// Shading time over evaluated pairs: CPU time on a CPU device, else device time.
     ns_per_pair: Option<f64>,
@@ -192,6 +196,8 @@ pub(super) fn pairs(
     Pairs {
         evaluated: count.evaluated,
         useful: count.useful,
+        area_evaluated: count.area,
+        area_saved: count.area_all - count.area,
         per_pixel: count.evaluated as f64 / (f64::from(width) * f64::from(height)),
         ns_per_pair: ms.filter(|_| count.evaluated > 0).map(|ms| ms * 1e6 / count.evaluated as f64),
     }
@@ -201,6 +207,10 @@ impl std::fmt::Display for Pairs {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let ratio = self.evaluated as f64 / self.useful.max(1) as f64;
         write!(f, "{:.1} pairs a pixel, {ratio:.2} evaluated per useful one", self.per_pixel)?;
+        let area = self.area_evaluated + self.area_saved;
+        if self.area_saved > 0 {
+            write!(f, ", {} of {area} with area lights saved by clusters", self.area_saved)?;
+        }
         self.ns_per_pair.map_or(Ok(()), |ns| write!(f, ", {ns:.2} ns a pair"))
     }
 }

@@ -1,7 +1,9 @@
 //! Arbitrary output variables: one quantity of the visible surface per pixel, in an image of its own.
 //!
-//! Recorded only when asked for, after the frame, against the frame's depth.
+//! Recorded only when asked for, after the frame, against the frame's depth. A light that is seen has a position, a
+//! normal turned to the viewer, the material −1, and no lights.
 
+use super::luminaires::Luminaires;
 use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
 use crate::gpu::{
@@ -32,6 +34,7 @@ pub struct Aov {
     pass: RenderPass,
     framebuffer: Framebuffer,
     pipelines: SurfacePipelines,
+    luminaires: Option<Luminaires>,
     image: Image,
 }
 
@@ -71,7 +74,10 @@ impl Aov {
         let blend = if quantity == Quantity::Coverage { Blend::Add } else { Blend::Replace };
         let extra = [(shared::SPEC_AOV, quantity as u32)];
         let pipelines = SurfacePipelines::new(inputs, shaders::AOV_AOV_FRAG, &extra, blend, (&pass, 0))?;
-        Ok(Self { pass, framebuffer, pipelines, image })
+        let seen = !inputs.scene.area.luminaires.is_empty();
+        let luminaires = || Luminaires::new(inputs, shaders::AOV_LUMINAIRE_FRAG, &extra, blend, (&pass, 0));
+        let luminaires = seen.then(luminaires).transpose()?;
+        Ok(Self { pass, framebuffer, pipelines, luminaires, image })
     }
 
     /// Draws the variable.
@@ -79,6 +85,9 @@ impl Aov {
         cmd.labelled("aov", |cmd| {
             cmd.begin_pass(&self.pass, &self.framebuffer);
             self.pipelines.draw(cmd, view, [0; 2]);
+            if let Some(luminaires) = &self.luminaires {
+                luminaires.draw(cmd, view);
+            }
             cmd.end_pass();
         });
     }

@@ -3,12 +3,13 @@
 //! 1. `slices`: which depth slices each tile's pixels lie in.
 //! 2. `scan_tiles`: ids for the occupied (tile, slice) pairs, the clusters.
 //! 3. `bounds`: each pixel's cluster id; each cluster's box of samples.
-//! 4. `count`: lights that reach each cluster, by a walk over the light tree.
-//! 5. `scan_lists`: where each list lies.
-//! 6. `write`: the lists, in Hilbert order, four indices a texel.
+//! 4. `area`: which area lights reach each cluster, one bit each, in the texels before the lists.
+//! 5. `count`: lights that reach each cluster, by a walk over the light tree.
+//! 6. `scan_lists`: where each list lies.
+//! 7. `write`: the lists, in Hilbert order, four indices a texel.
 //!
-//! Ids and lists come from scans, never from atomics, so they are the same on every run. The pass is recorded only
-//! where the scene has lights with a range.
+//! Ids and lists come from scans, never from atomics, so they are the same on every run. Step 4 is recorded only where the
+//! scene has many area lights, steps 5 to 7 where it has lights with a range, and the others where it has either.
 
 use super::{PassInputs, View};
 use crate::error::{Error, Result};
@@ -22,35 +23,44 @@ use std::sync::Arc;
 /// Array layers that every device has: 2 GiB of lists.
 const MAX_LAYERS: u32 = 256;
 
-/// Room for clusters and list texels; grows when a frame needs more.
+/// Room for clusters, their masks and lists; grows when a frame needs more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capacity {
     /// Clusters.
     pub clusters: u32,
-    /// Texels of lists.
+    /// Texels of a cluster's mask of area lights.
+    pub mask: u32,
+    /// Texels of masks and lists.
     pub texels: u32,
 }
 
 impl Capacity {
     /// What a picture of so many tiles starts with: two depth layers, 64 lights in each.
     #[must_use]
-    pub fn start(tiles: u32) -> Self {
-        Self { clusters: tiles.max(32) * 2, texels: 0 }.with_texels(tiles * 32)
+    pub fn start(tiles: u32, mask: u32) -> Self {
+        let room = Self { clusters: tiles.max(32) * 2, mask, texels: 0 };
+        room.with_texels(room.masks() + u64::from(tiles) * 32)
+    }
+
+    fn masks(self) -> u64 {
+        u64::from(self.clusters) * u64::from(self.mask)
     }
 
     /// Whole layers of the list image.
-    fn with_texels(self, texels: u32) -> Self {
+    fn with_texels(self, texels: u64) -> Self {
         let layer = 1 << (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2);
         // More than fits in 32 bits no device has: the image of the lists says so.
-        Self { texels: texels.div_ceil(layer).clamp(1, u32::MAX / layer) * layer, ..self }
+        let layers = texels.div_ceil(u64::from(layer)).clamp(1, u64::from(u32::MAX / layer));
+        Self { texels: layers as u32 * layer, ..self }
     }
 
     /// Enough for what the counters ask for; `None` if it is so already.
     #[must_use]
     pub fn grown(self, counters: &Counters) -> Option<Self> {
         // Where clusters were missing, so were their lists: the texels needed are known only next time.
-        let clusters = counters.clusters.max(self.clusters);
-        let larger = Self { clusters, ..self }.with_texels(counters.list_texels.max(self.texels));
+        let larger = Self { clusters: counters.clusters.max(self.clusters), ..self };
+        let lists = u64::from(counters.list_texels).max(u64::from(self.texels)) - self.masks();
+        let larger = larger.with_texels(larger.masks() + lists);
         (larger != self).then_some(larger)
     }
 }
@@ -80,7 +90,9 @@ impl ClusterTargets {
             return Err(Error::Vulkan {
                 call: "light lists".into(),
                 result: format!("they need {layers} array layers, and devices have {MAX_LAYERS}"),
-                remedy: "lower render.max_lights_per_cluster, or render a smaller picture".into(),
+                remedy:
+                    "lower render.max_lights_per_cluster, use fewer area lights, or render a smaller picture"
+                        .into(),
             });
         }
         let lists = Image::new(
@@ -122,31 +134,43 @@ pub struct ClusterPass {
     slices: ComputePipeline,
     scan_tiles: ComputePipeline,
     bounds: ComputePipeline,
+    lists: Option<Lists>,
+    area: Option<ComputePipeline>,
+}
+
+/// Those of the lists.
+struct Lists {
     count: ComputePipeline,
     scan_lists: ComputePipeline,
     write: ComputePipeline,
 }
 
 impl ClusterPass {
-    /// Compiles the six steps.
+    /// Compiles the steps: lists for lights with a range, masks for area lights.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>) -> Result<Self> {
+    pub fn new(inputs: &PassInputs<'_>, lists: bool, masks: bool) -> Result<Self> {
         let step = |shader| {
             ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, &Specialization::default())
+        };
+        let of_lists = || -> Result<Lists> {
+            Ok(Lists {
+                count: step(shaders::CLUSTER_COUNT_COMP)?,
+                scan_lists: step(shaders::CLUSTER_SCAN_LISTS_COMP)?,
+                write: step(shaders::CLUSTER_WRITE_COMP)?,
+            })
         };
         Ok(Self {
             slices: step(shaders::CLUSTER_SLICES_COMP)?,
             scan_tiles: step(shaders::CLUSTER_SCAN_TILES_COMP)?,
             bounds: step(shaders::CLUSTER_BOUNDS_COMP)?,
-            count: step(shaders::CLUSTER_COUNT_COMP)?,
-            scan_lists: step(shaders::CLUSTER_SCAN_LISTS_COMP)?,
-            write: step(shaders::CLUSTER_WRITE_COMP)?,
+            lists: lists.then(of_lists).transpose()?,
+            area: masks.then(|| step(shaders::CLUSTER_AREA_COMP)).transpose()?,
         })
     }
 
-    /// Records the six steps, with what each hands to the next.
+    /// Records the steps, with what each hands to the next.
     pub fn record(&self, cmd: &mut Commands, view: &View<'_>, targets: &ClusterTargets, tiles: [u32; 2]) {
         let sets = [view.frame, view.scene.set.get(0)];
         let tiles = [tiles[0], tiles[1], 1];
@@ -160,14 +184,21 @@ impl ClusterPass {
             cmd.bind_compute(&self.bounds, &sets);
             cmd.dispatch(tiles);
             cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
-            cmd.bind_compute(&self.count, &sets);
-            cmd.dispatch_indirect(&targets.counters);
-            cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
-            cmd.bind_compute(&self.scan_lists, &sets);
-            cmd.dispatch([1, 1, 1]);
-            cmd.memory_barrier(Use::ComputeWrite, Use::IndirectRead);
-            cmd.bind_compute(&self.write, &sets);
-            cmd.dispatch_indirect(&targets.counters);
+            if let Some(area) = &self.area {
+                cmd.bind_compute(area, &sets);
+                cmd.dispatch_indirect(&targets.counters);
+                cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
+            }
+            if let Some(lists) = &self.lists {
+                cmd.bind_compute(&lists.count, &sets);
+                cmd.dispatch_indirect(&targets.counters);
+                cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
+                cmd.bind_compute(&lists.scan_lists, &sets);
+                cmd.dispatch([1, 1, 1]);
+                cmd.memory_barrier(Use::ComputeWrite, Use::IndirectRead);
+                cmd.bind_compute(&lists.write, &sets);
+                cmd.dispatch_indirect(&targets.counters);
+            }
         });
     }
 }

@@ -1,8 +1,9 @@
-//! Subpass *direct*: the background, and the lights that every pixel evaluates one by one.
+//! Subpass *direct*: the background, lights that are seen, area lights, and point lights without a range.
 //!
-//! Today these are the point lights without a range: they reach everything, so a list would only repeat them.
+//! The latter reach everything, so a list would only repeat them. Of many area lights, masks say which reach a cluster.
 
 use super::forward::Work;
+use super::luminaires::Luminaires;
 use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
 use crate::gpu::{
@@ -10,16 +11,21 @@ use crate::gpu::{
     shaders,
 };
 use crate::shared;
+use std::ops::Range;
 
 /// Lights of one draw; the draws of a surface add up. lavapipe ends a shader's loops, without a word, after 65,535
 /// iterations, and a GPU's watchdog ends draws that last seconds.
 const LIGHTS_PER_DRAW: u32 = 1 << 15;
+/// The same of area lights, of which each takes up to some hundred iterations. A multiple of a word of masks.
+const AREA_LIGHTS_PER_DRAW: u32 = 128;
 
 /// Pipelines of the subpass; absent where the scene has no use for them.
 pub struct Direct {
     unranged: Option<SurfacePipelines>,
+    area: Option<SurfacePipelines>,
+    luminaires: Option<Luminaires>,
     background: Option<GraphicsPipeline>,
-    first_light: u32,
+    work: Work,
 }
 
 impl Direct {
@@ -29,6 +35,15 @@ impl Direct {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>, work: Work, at: (&RenderPass, u32)) -> Result<Self> {
         let unranged = || SurfacePipelines::new(inputs, shaders::DIRECT_UNRANGED_FRAG, &[], Blend::Add, at);
+        let area = || {
+            let masks = [(shared::SPEC_LIGHT_MASKS, u32::from(work.masks))];
+            let extra = [&inputs.scene.area.specialization[..], &masks].concat();
+            SurfacePipelines::new(inputs, shaders::DIRECT_AREA_FRAG, &extra, Blend::Add, at)
+        };
+        let luminaires = || {
+            let extra = &inputs.scene.area.specialization;
+            Luminaires::new(inputs, shaders::DIRECT_LUMINAIRE_FRAG, extra, Blend::Add, at)
+        };
         let background = || {
             GraphicsPipeline::new(
                 inputs.device,
@@ -50,12 +65,14 @@ impl Direct {
         };
         Ok(Self {
             unranged: work.unranged.then(unranged).transpose()?,
+            area: (work.area > 0).then(area).transpose()?,
+            luminaires: work.luminaires.then(luminaires).transpose()?,
             background: work.background.then(background).transpose()?,
-            first_light: work.first_unranged,
+            work,
         })
     }
 
-    /// Draws background and unranged lights.
+    /// Draws background, luminaires, area lights and unranged lights.
     pub fn record(&self, cmd: &mut Commands, view: &View<'_>) {
         let count = view.scene.lights.lights.len() as u32;
         if let Some(background) = &self.background {
@@ -63,11 +80,19 @@ impl Direct {
             cmd.bind_sets(shared::frame::SET, &[view.frame]);
             cmd.draw_fullscreen();
         }
-        if let Some(unranged) = &self.unranged {
-            for first in (self.first_light..count).step_by(LIGHTS_PER_DRAW as usize) {
-                let end = count.min(first + LIGHTS_PER_DRAW);
-                unranged.draw(cmd, view, [first, end]);
+        if let Some(luminaires) = &self.luminaires {
+            luminaires.draw(cmd, view);
+        }
+        let mut draw = |pipelines: &SurfacePipelines, lights: Range<u32>, most: u32| {
+            for first in lights.clone().step_by(most as usize) {
+                pipelines.draw(cmd, view, [first, lights.end.min(first + most)]);
             }
+        };
+        if let Some(area) = &self.area {
+            draw(area, 0..self.work.area, AREA_LIGHTS_PER_DRAW);
+        }
+        if let Some(unranged) = &self.unranged {
+            draw(unranged, self.work.first_unranged..count, LIGHTS_PER_DRAW);
         }
     }
 }

@@ -24,8 +24,14 @@ pub struct Work {
     pub first_unranged: u32,
     /// Radiance where no surface is.
     pub background: bool,
-    /// Lights in lists.
-    pub clustered: bool,
+    /// Point lights in lists.
+    pub lists: bool,
+    /// Area lights: how many; 0 where no surface is drawn.
+    pub area: u32,
+    /// Area lights through the masks of the clusters.
+    pub masks: bool,
+    /// Area lights that are seen.
+    pub luminaires: bool,
     /// Tone curve.
     pub tonemap: Tonemap,
 }
@@ -51,8 +57,8 @@ impl Forward {
         let further = render_pass(inputs, work, Use::TransferRead)?;
         let framebuffer =
             Framebuffer::new(inputs.device, &first, &[&targets.hdr, &targets.ldr, &targets.depth])?;
-        let indirect = work.clustered.then(|| Indirect::new(inputs, (&first, 1))).transpose()?;
-        let last = if work.clustered { 2 } else { 1 };
+        let indirect = work.lists.then(|| Indirect::new(inputs, (&first, 1))).transpose()?;
+        let last = if work.lists { 2 } else { 1 };
         Ok(Self {
             direct: Direct::new(inputs, work, (&first, 0))?,
             indirect,
@@ -106,7 +112,7 @@ fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<R
     let present = Subpass { color: &[LDR], input: &[HDR], depth: None };
     let mut subpasses = vec![shading];
     let mut inside = Vec::new();
-    if work.clustered {
+    if work.lists {
         subpasses.push(shading);
         inside.push((Use::ColorWrite, Use::ColorWrite));
     }

@@ -8,6 +8,7 @@ pub mod cluster;
 pub mod direct;
 pub mod forward;
 pub mod indirect;
+mod luminaires;
 pub mod pairs;
 pub mod prepass;
 pub mod present;
@@ -82,6 +83,8 @@ pub struct View<'a> {
     pub scene: &'a GpuScene,
     /// What of it is in view.
     pub draws: &'a [VisibleDraw],
+    /// Area lights that are seen and in view: variants by [`crate::gpu_scene::Luminaire`], materials are lights.
+    pub luminaires: &'a [VisibleDraw],
     /// Set 0.
     pub frame: DescriptorSet<'a>,
 }

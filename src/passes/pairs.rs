@@ -11,8 +11,12 @@ use std::sync::Arc;
 pub struct PairCount {
     /// Evaluated by the shading.
     pub evaluated: u64,
-    /// Within the light's range.
+    /// Within the light's range, or before an area light.
     pub useful: u64,
+    /// Of area lights, among those evaluated.
+    pub area: u64,
+    /// Of area lights, had no mask left any out.
+    pub area_all: u64,
 }
 
 /// The counting pipeline and its buffer.
@@ -59,6 +63,8 @@ impl PairPass {
         let sum = |pairs: PairCount, tile: &TilePairs| PairCount {
             evaluated: pairs.evaluated + u64::from(tile.evaluated),
             useful: pairs.useful + u64::from(tile.useful),
+            area: pairs.area + u64::from(tile.area),
+            area_all: pairs.area_all + u64::from(tile.area_all),
         };
         Ok(self.tiles.fetch(Use::ComputeWrite)?.iter().fold(PairCount::default(), sum))
     }

@@ -1,7 +1,8 @@
 //! Depth only, reversed; masked materials are tested.
 //!
-//! Reads the scene's triangles, writes depth. Cheap beside shading, and it removes all overdraw from it.
+//! Reads the triangles of scene and luminaires, writes depth. Cheap beside shading, and it removes all overdraw from it.
 
+use super::luminaires::Luminaires;
 use super::{PassInputs, View, draw_scene};
 use crate::error::Result;
 use crate::gpu::{
@@ -17,6 +18,7 @@ pub struct Prepass {
     framebuffer: Framebuffer,
     // By variant.
     pipelines: Vec<GraphicsPipeline>,
+    luminaires: Option<Luminaires>,
 }
 
 impl Prepass {
@@ -57,7 +59,9 @@ impl Prepass {
             )
         };
         let pipelines = inputs.scene.variants.iter().map(pipeline).collect::<Result<_>>()?;
-        Ok(Self { pass, framebuffer, pipelines })
+        let seen = !inputs.scene.area.luminaires.is_empty();
+        let luminaires = seen.then(|| Luminaires::prepass(inputs, &pass)).transpose()?;
+        Ok(Self { pass, framebuffer, pipelines, luminaires })
     }
 
     /// Draws the scene's depth.
@@ -65,6 +69,9 @@ impl Prepass {
         cmd.labelled("prepass", |cmd| {
             cmd.begin_pass(&self.pass, &self.framebuffer);
             draw_scene(cmd, view, [0; 2], |variant| &self.pipelines[variant]);
+            if let Some(luminaires) = &self.luminaires {
+                luminaires.draw(cmd, view);
+            }
             cmd.end_pass();
         });
     }

@@ -119,7 +119,7 @@ fn bounding(places: &[DVec2]) -> [DVec3; 2] {
 }
 
 /// The affine map that fits the outer vertices' own coordinates in the least squares.
-fn fitted(places: &[DVec2], uvs: &[[f32; 2]]) -> [DVec3; 2] {
+pub(crate) fn fitted(places: &[DVec2], uvs: &[[f32; 2]]) -> [DVec3; 2] {
     let mut squares = DMat3::ZERO;
     let mut right = [DVec3::ZERO; 2];
     for (place, uv) in places.iter().zip(uvs) {

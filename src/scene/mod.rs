@@ -13,6 +13,7 @@ mod load;
 pub mod luminaire;
 pub mod material;
 pub mod mesh;
+pub mod mips;
 mod mtl;
 mod obj;
 mod obj_scan;

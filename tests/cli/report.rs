@@ -57,6 +57,8 @@ fn pairs(value: &Value) {
     let evaluated = number(&value["evaluated"]);
     let useful = number(&value["useful"]);
     assert!(0.0 < useful && useful <= evaluated && evaluated <= 64.0 * 48.0, "{value}");
+    assert_eq!(number(&value["area_evaluated"]), 0.0, "{value}");
+    assert_eq!(number(&value["area_saved"]), 0.0, "{value}");
     let per_pixel = number(&value["per_pixel"]) * 64.0 * 48.0;
     assert!((per_pixel / evaluated - 1.0).abs() < 1e-12, "{value}");
     if !value["ns_per_pair"].is_null() {
@@ -109,6 +111,38 @@ fn several_frames_and_no_lights() {
     assert_eq!(report["pairs"]["evaluated"], 0);
     assert_eq!(report["pairs"]["ns_per_pair"], Value::Null);
     assert_eq!(report["clusters"]["list_entries"], 0);
+}
+
+/// Ten lights, half of which shine upwards from above everything: masks leave these out. Two are seen.
+#[test]
+fn area_lights() {
+    let folder = Folder::new();
+    let light = |index: u32| {
+        let [u, v] = if index.is_multiple_of(2) {
+            ["[0.1, 0, 0]", "[0, 0, 0.1]"]
+        } else {
+            ["[0, 0, 0.1]", "[0.1, 0, 0]"]
+        };
+        let (x, seen) = (0.1 * f64::from(index) - 0.5, index < 2);
+        format!(
+            "[[light]]\ntype = \"rect\"\ncenter = [{x}, 1, 0]\nu = {u}\nv = {v}\nradiance = [9, 9, 9]\nvisible = {seen}\n"
+        )
+    };
+    let dark = crate::SCENE.split("[[light]]").next().unwrap();
+    folder.write("area.toml", (0..10).map(light).fold(dark.to_owned(), |text, light| text + &light));
+    let words = ["--validate", "--report", "r.json", "--aov", "material=m.pfm", "-o", "a.png"];
+    folder.done(&[&["render", "area.toml"], &words[..]].concat());
+    let report = folder.json("r.json");
+    assert_eq!(report["scene"]["area_lights"], 10);
+    let names = report["passes"].as_array().unwrap().iter().map(|pass| &pass["name"]);
+    assert_eq!(names.collect::<Vec<_>>(), ["prepass", "cluster", "direct", "present"]);
+    let pairs = &report["pairs"];
+    let [evaluated, saved] = ["area_evaluated", "area_saved"].map(|key| number(&pairs[key]));
+    assert!(evaluated > 0.0 && pairs["evaluated"] == pairs["area_evaluated"], "{pairs}");
+    assert!((0.9..1.1).contains(&(saved / evaluated)), "{pairs}");
+    let clusters = &report["clusters"];
+    assert!(number(&clusters["occupied"]) > 0.0 && clusters["list_entries"] == 0, "{clusters}");
+    assert_eq!(report["validation_messages"], 0);
 }
 
 /// The validation layers are on, and silent.

@@ -8,7 +8,8 @@ use crate::modules;
 use crate::spirv::{Module, decoration};
 
 /// Structs that shaders take from textures.
-const IN_TEXELS: [&str; 5] = ["LightNode", "BvhHeader", "BvhNode", "BvhTriangle", "MaskedTriangle"];
+const IN_TEXELS: [&str; 6] =
+    ["LightNode", "BvhHeader", "BvhNode", "BvhTriangle", "MaskedTriangle", "AreaRecord"];
 
 #[test]
 fn structs_lie_in_shaders_as_they_do_in_rust() {
@@ -54,6 +55,21 @@ fn occluders_fill_whole_texels() {
     let masked = of("MaskedTriangle");
     assert_eq!(masked.fields, [("uv_ab", 0), ("uv_c", 16), ("words", 24), ("size", 28)]);
     assert_eq!(masked.size, 32);
+}
+
+/// `area_light` in glsl/bind/area_lights.glsl takes it apart.
+#[test]
+fn area_lights_fill_whole_texels() {
+    let record = LAYOUTS.iter().find(|layout| layout.name == "AreaRecord").unwrap();
+    let scalars = ["kind", "extent", "radius", "ring_first", "ring_count", "points", "heap", "size"];
+    for (texel, name) in scalars.iter().enumerate() {
+        assert!(record.fields.contains(&(name, 16 * texel + 12)), "{name} ends texel {texel}");
+    }
+    let vectors = ["center", "u", "v", "normal", "radiance", "piece_first", "uv_s", "uv_t"];
+    for (texel, name) in vectors.iter().enumerate() {
+        assert!(record.fields.contains(&(name, 16 * texel)), "{name} begins texel {texel}");
+    }
+    assert_eq!(record.size, 16 << shared::AREA_RECORD_LOG2);
 }
 
 fn compare(shader: &str, module: &Module, layout: &StructLayout, id: u32, members: &[u32]) {

@@ -5,10 +5,12 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod area;
 mod cameras;
 mod clusters;
 mod far;
 mod lists;
+mod luminaires;
 mod oracle;
 mod support;
 mod surfaces;

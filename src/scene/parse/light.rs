@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::scene::light::PointLight;
 use crate::scene::load::Loader;
 use crate::scene::points::{self, Generator};
+use crate::shared::MAX_AREA_LIGHTS;
 
 /// Most lights of a scene, area lights included.
 const MOST_LIGHTS: usize = 1 << 20;
@@ -25,6 +26,11 @@ pub(in crate::scene) fn lights(loader: &mut Loader, root: &Table) -> Result<()> 
             shape @ ("polygon" | "rect" | "disk" | "line") => {
                 let light = area::light(loader, &table, shape)?;
                 loader.scene.area_lights.push(light);
+                if loader.scene.area_lights.len() > MAX_AREA_LIGHTS as usize {
+                    let cause =
+                        format!("with this one the scene has more than {MAX_AREA_LIGHTS} area lights");
+                    return Err(table.error(cause, "use fewer, or point lights for the smallest of them"));
+                }
             }
             other => {
                 let known = ["point", "points", "polygon", "rect", "disk", "line"];

@@ -1,0 +1,74 @@
+//! Area lights on the device.
+
+use crate::area_lights::AreaLights;
+use crate::draws::Draw;
+use crate::error::Result;
+use crate::gpu::{DescriptorSet, Device, Format, Image, ImageDescription, Use};
+use crate::shared::{self, AREA_HEIGHT_LOG2, AREA_KIND_BITS, AREA_WIDTH_LOG2, AreaRecord};
+use std::sync::Arc;
+
+/// How a light that is seen is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Luminaire {
+    /// From both sides.
+    Flat,
+    /// From outside.
+    Line,
+}
+
+/// The area lights, and what shaders are specialised by for them.
+pub struct Area {
+    /// How many.
+    pub count: u32,
+    /// Specialisation constants of what evaluates them.
+    pub specialization: Vec<(u32, u32)>,
+    /// Those that are seen: variants by [`Luminaire`], materials are lights.
+    pub luminaires: Vec<Draw>,
+    texels: Image,
+}
+
+impl Area {
+    /// Uploads the lights; where there are none, a single texel.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] where memory is short.
+    pub fn new(device: &Arc<Device>, lights: &AreaLights, luminaires: Vec<Draw>) -> Result<Self> {
+        let mut texels = lights.texels();
+        let (width, most) = (1 << AREA_WIDTH_LOG2, 1 << AREA_HEIGHT_LOG2);
+        let rows = texels.len().div_ceil(width).max(1);
+        let layers = rows.div_ceil(most);
+        let height = if layers > 1 { most } else { rows };
+        let width = if texels.is_empty() { 1 } else { width };
+        texels.resize(layers * height * width, [0; 4]);
+        let image = Image::new(
+            device,
+            &ImageDescription {
+                name: "area lights",
+                format: Format::R32G32B32A32_UINT,
+                size: [width as u32, height as u32],
+                layers: Some(layers as u32),
+                mips: 1,
+                uses: &[Use::TransferWrite, Use::Texture],
+            },
+        )?;
+        image.upload(&[&texels], Use::Texture)?;
+        let kind = |wanted| move |record: &AreaRecord| record.kind & ((1 << AREA_KIND_BITS) - 1) == wanted;
+        let flag = |wanted| move |record: &AreaRecord| record.kind & wanted != 0;
+        let specialization = vec![
+            (shared::SPEC_POLYGONS, u32::from(lights.records.iter().any(kind(shared::AREA_POLYGON)))),
+            (shared::SPEC_ELLIPSES, u32::from(lights.records.iter().any(kind(shared::AREA_ELLIPSE)))),
+            (shared::SPEC_LINES, u32::from(lights.records.iter().any(kind(shared::AREA_LINE)))),
+            (shared::SPEC_TEXTURED_LIGHTS, u32::from(lights.records.iter().any(flag(shared::AREA_TEXTURED)))),
+            (
+                shared::SPEC_TWO_SIDED_LIGHTS,
+                u32::from(lights.records.iter().any(flag(shared::AREA_TWO_SIDED))),
+            ),
+        ];
+        Ok(Self { count: lights.records.len() as u32, specialization, luminaires, texels: image })
+    }
+
+    /// Puts them into the scene's set.
+    pub fn bind(&self, scene: DescriptorSet<'_>) {
+        scene.image(shared::scene::SCENE_AREA_LIGHTS, &self.texels, Use::Texture);
+    }
+}

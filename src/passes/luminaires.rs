@@ -1,0 +1,80 @@
+//! Area lights that are seen: their triangles, in the prepass and where something is drawn at its depth.
+
+use super::{PassInputs, View};
+use crate::error::Result;
+use crate::gpu::{
+    Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass, Shader,
+    Specialization, shaders,
+};
+use crate::gpu_scene::Luminaire;
+use crate::shared::{self, DrawConstants};
+
+/// Pipelines by [`Luminaire`].
+pub(super) struct Luminaires([GraphicsPipeline; 2]);
+
+impl Luminaires {
+    /// Pipelines that draw what the prepass left visible of the lights.
+    pub(super) fn new(
+        inputs: &PassInputs<'_>,
+        fragment: Shader,
+        constants: &[(u32, u32)],
+        blend: Blend,
+        at: (&RenderPass, u32),
+    ) -> Result<Self> {
+        Self::with(inputs, Some(fragment), constants, (DepthTest::Equal, Some(blend)), at)
+    }
+
+    /// Pipelines that write the lights' depth.
+    pub(super) fn prepass(inputs: &PassInputs<'_>, pass: &RenderPass) -> Result<Self> {
+        Self::with(inputs, None, &[], (DepthTest::WriteNearest, None), (pass, 0))
+    }
+
+    fn with(
+        inputs: &PassInputs<'_>,
+        fragment: Option<Shader>,
+        constants: &[(u32, u32)],
+        (depth, blend): (DepthTest, Option<Blend>),
+        (pass, subpass): (&RenderPass, u32),
+    ) -> Result<Self> {
+        let add = |all: Specialization, &(id, value): &(u32, u32)| all.with(id, value);
+        let specialization = constants.iter().fold(Specialization::default(), add);
+        let pipeline = |cull| {
+            GraphicsPipeline::new(
+                inputs.device,
+                &inputs.scene.layout,
+                &GraphicsDescription {
+                    name: "luminaires",
+                    vertex: shaders::PREPASS_SURFACE_VERT,
+                    fragment,
+                    specialization: &specialization,
+                    vertices: true,
+                    depth,
+                    blend,
+                    cull,
+                    pass,
+                    subpass,
+                },
+            )
+        };
+        // A flat light has a back; the inside of a line is not there.
+        Ok(Self([pipeline(Cull::None)?, pipeline(Cull::Back)?]))
+    }
+
+    /// Draws the lights in view, each with its index for the shader.
+    pub(super) fn draw(&self, cmd: &mut Commands, view: &View<'_>) {
+        let scene = view.scene;
+        cmd.bind_triangles(&scene.vertices, &scene.triangles);
+        for kind in [Luminaire::Flat, Luminaire::Line] {
+            let mut draws = view.luminaires.iter().filter(|draw| draw.variant == kind as usize).peekable();
+            if draws.peek().is_some() {
+                cmd.bind_graphics(&self.0[kind as usize]);
+                cmd.bind_sets(shared::frame::SET, &[view.frame, scene.set.get(0)]);
+            }
+            for draw in draws {
+                let lights = [draw.material, draw.material + 1];
+                cmd.push(&DrawConstants { lights, ..DrawConstants::default() });
+                cmd.draw_triangles(draw.first, draw.count);
+            }
+        }
+    }
+}

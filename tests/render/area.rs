@@ -1,0 +1,215 @@
+//! Area lights against the oracle, against each other, and against brute force.
+
+use crate::support::{FIVE_MATERIALS, Rig, assert_close, oracle, relative_errors, scene, scene_with};
+use amas::Scene;
+use amas::gpu::Use;
+use amas::passes::aov::Quantity;
+use amas::scene::{AreaLight, AreaShape};
+use amas::shared::{AREA_FAR, AREA_MASK_LIGHTS, NO_CLUSTER};
+use glam::{DVec3, Vec3};
+use image::{ImageFormat, Rgba};
+use std::io::Cursor;
+
+/// A light of each shape, small for its distance from everything in [`FIVE_MATERIALS`].
+const SHAPES: [&str; 5] = [
+    "type = \"rect\"\ncenter = [1, 4, 2]\nu = [0.15, 0, 0.02]\nv = [0.02, 0.03, 0.1]\ntwo_sided = true\n",
+    "type = \"disk\"\ncenter = [-1, 4, 2]\nnormal = [0.2, -1, -0.1]\nradius = 0.15\n",
+    "type = \"disk\"\ncenter = [-2, 3.5, 2.5]\nu = [0.15, 0, 0]\nv = [0.05, -0.1, 0.05]\ntwo_sided = true\n",
+    "type = \"line\"\na = [-0.2, 3.5, 2]\nb = [0.1, 3.7, 2.1]\nradius = 0.02\n",
+    "type = \"polygon\"\nvertices = [[0, 4, 2], [0.3, 4, 2], [0.3, 4, 2.2], [0.1, 4, 2.1], [0, 4, 2.3]]\n\
+     holes = [[[0.05, 4, 2.05], [0.05, 4, 2.1], [0.1, 4, 2.05]]]\n",
+];
+
+fn light(shape: &str) -> String {
+    format!("[[light]]\n{shape}radiance = [300, 200, 250]\nvisible = false\n")
+}
+
+fn small(text: &str) -> String {
+    text.replace("size = [96, 64]", "size = [48, 32]")
+}
+
+#[test]
+fn small_lights_of_every_shape_are_the_oracle_s() {
+    for shape in SHAPES {
+        let mut rig = Rig::new(scene(&small(&format!("{FIVE_MATERIALS}{}", light(shape)))));
+        println!("{shape}");
+        // The oracle's own standard error is 1e-3.
+        assert_close(&rig.render(), &oracle(&rig.scene), 0.99, 4e-3);
+    }
+}
+
+#[test]
+fn textured_lights_are_the_oracle_s() {
+    let mut png = Vec::new();
+    image::RgbaImage::from_fn(16, 16, |x, y| Rgba([if x < 8 { 250 } else { 20 }, 16 * y as u8, 90, 255]))
+        .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
+        .unwrap();
+    for shape in [SHAPES[0], SHAPES[1], SHAPES[4]] {
+        let text = small(&format!("{FIVE_MATERIALS}{}texture = \"t.png\"\n", light(shape)));
+        let mut rig = Rig::new(scene_with(&text, &[("t.png", &png)]));
+        assert_close(&rig.render(), &oracle(&rig.scene), 0.99, 6e-3);
+    }
+}
+
+#[test]
+fn light_leaves_on_the_side_of_the_normal() {
+    let up = |extra: &str| {
+        let rect = "type = \"rect\"\ncenter = [0, 4, 0]\nu = [0, 0, 0.2]\nv = [0.2, 0, 0]\n";
+        Rig::new(scene(&small(&format!("{FIVE_MATERIALS}{}", light(&format!("{rect}{extra}")))))).render()
+    };
+    assert!(up("").pixels.iter().all(|p| *p == [0.0; 3]), "nothing lies above it");
+    let down = "type = \"rect\"\ncenter = [0, 4, 0]\nu = [0.2, 0, 0]\nv = [0, 0, 0.2]\n";
+    let down = Rig::new(scene(&small(&format!("{FIVE_MATERIALS}{}", light(down))))).render();
+    assert_close(&up("two_sided = true\n"), &down, 1.0, 1e-5);
+}
+
+/// A generated ceiling and walls of textured polygons that face all ways.
+fn hundred_polygons() -> Scene {
+    let mut state = 5_u32;
+    let mut next = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) / 16_777_216.0
+    };
+    let mut text = small(FIVE_MATERIALS);
+    for index in 0..100 {
+        let center = DVec3::new(next() * 6.0 - 3.0, next() * 3.0 + 0.3, next() * 6.0 - 3.0);
+        let normal = (DVec3::new(next(), next(), next()) - 0.5).normalize();
+        let (u, v) = (normal.any_orthonormal_vector(), normal.cross(normal.any_orthonormal_vector()));
+        let size = 0.02 + 0.2 * next();
+        let corners = 3 + index % 6;
+        let vertices: Vec<_> = (0..corners)
+            .map(|i| {
+                let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / f64::from(corners)).sin_cos();
+                (center + size * (cos * u + sin * v)).to_array()
+            })
+            .collect();
+        let texture = if index % 3 == 0 { "texture = \"t.png\"\n" } else { "" };
+        let (radiance, two_sided) = (if index == 50 { 0.0 } else { 2.0 + 5.0 * next() }, index % 7 == 0);
+        text += &format!(
+            "[[light]]\ntype = \"polygon\"\nvertices = {vertices:?}\nradiance = [{radiance}, {radiance}, 1e-9]\n\
+             visible = false\ntwo_sided = {two_sided}\n{texture}"
+        );
+    }
+    let mut png = Vec::new();
+    image::RgbaImage::from_fn(9, 7, |x, y| Rgba([28 * x as u8, 36 * y as u8, 200, 255]))
+        .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
+        .unwrap();
+    scene_with(&text, &[("t.png", &png)])
+}
+
+#[test]
+fn masks_leave_out_no_light() {
+    let mut rig = Rig::new(hundred_polygons());
+    let masked = rig.render();
+    let brute = Rig::with(hundred_polygons(), |settings| settings.brute_force = true).render();
+    let errors = relative_errors(&masked, &brute);
+    println!("worst {:.2e}", errors[errors.len() - 1]);
+    assert!(errors[errors.len() - 1] <= 1e-6);
+    let pairs = rig.frame.pairs().unwrap();
+    println!("{pairs:?}");
+    assert!(pairs.area * 10 < pairs.area_all * 8, "one-sided lights have backs: {pairs:?}");
+    assert!(pairs.useful <= pairs.evaluated && pairs.evaluated == pairs.area);
+    let counted: f64 = rig.aov(Quantity::LightCount).iter().map(|v| f64::from(v[0])).sum();
+    assert_eq!(counted, pairs.area as f64);
+}
+
+/// Whether a light sends anything towards a point, in double precision, but for what rounding may decide.
+fn reaches(light: &AreaLight, p: DVec3) -> bool {
+    let front = match &light.shape {
+        AreaShape::Line { .. } => return light.radiance != Vec3::ZERO,
+        AreaShape::Rect { center, u, v } | AreaShape::Disk { center, u, v } => (*center, u.cross(*v)),
+        AreaShape::Polygon { vertices, .. } => {
+            let next = vertices.iter().cycle().skip(1);
+            let area = |(a, b): (&Vec3, &Vec3)| (*a - vertices[0]).cross(*b - vertices[0]);
+            (vertices[0], vertices.iter().zip(next).map(area).sum())
+        }
+    };
+    let height = (p - front.0.as_dvec3()).dot(front.1.as_dvec3().normalize());
+    light.radiance != Vec3::ZERO && (light.two_sided || height > 1e-5)
+}
+
+/// Centre and radius of a sphere that holds a light's outline.
+fn sphere(light: &AreaLight) -> (DVec3, f64) {
+    let AreaShape::Polygon { vertices, .. } = &light.shape else { panic!("a polygon") };
+    let middle = vertices.iter().map(|v| v.as_dvec3()).sum::<DVec3>() / vertices.len() as f64;
+    (middle, vertices.iter().map(|v| v.as_dvec3().distance(middle)).fold(0.0, f64::max))
+}
+
+#[test]
+fn masks_against_brute_force() {
+    let mut scene = hundred_polygons();
+    let shrunk = scene.area_lights.clone().into_iter().map(|mut light| {
+        if let AreaShape::Polygon { vertices, .. } = &mut light.shape {
+            let middle = vertices.iter().sum::<Vec3>() / vertices.len() as f32;
+            vertices.iter_mut().for_each(|v| *v = middle + (*v - middle) * 0.05);
+        }
+        light
+    });
+    scene.area_lights.extend(shrunk.collect::<Vec<_>>());
+    let mut rig = Rig::new(scene);
+    rig.render();
+    let positions = rig.aov(Quantity::Position);
+    let (targets, clusters) = rig.frame.cluster_targets();
+    let ids: Vec<u32> = targets.cluster_ids.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
+    let texels: Vec<[u32; 4]> = clusters.lists.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
+    let mask = clusters.capacity.mask;
+    assert_eq!(mask, 200_u32.div_ceil(AREA_MASK_LIGHTS));
+    let (mut set, mut far, mut reached) = (0, 0, 0);
+    for (&id, p) in ids.iter().zip(&positions).filter(|(id, _)| **id != NO_CLUSTER) {
+        let p = Vec3::new(p[0], p[1], p[2]).as_dvec3();
+        for (index, light) in (0..).zip(&rig.scene.area_lights) {
+            let texel = texels[(id * mask + index / AREA_MASK_LIGHTS) as usize];
+            let bit = index % AREA_MASK_LIGHTS;
+            let has = |first: u32| texel[(first + bit / 32) as usize] >> (bit % 32) & 1 == 1;
+            assert!(has(0) || !reaches(light, p), "light {index} reaches {p} and is not in its mask");
+            if has(2) {
+                let (middle, radius) = sphere(light);
+                let least = f64::from(AREA_FAR) * radius * 0.7;
+                assert!(p.distance(middle) > least, "light {index} is not far from {p}");
+            }
+            (set, far) = (set + u32::from(has(0)), far + u32::from(has(2)));
+            reached += u32::from(reaches(light, p));
+        }
+    }
+    println!(
+        "{:.3} set per reaching light, {:.3} of all far",
+        f64::from(set) / f64::from(reached),
+        f64::from(far) / f64::from(set)
+    );
+    assert!(far > 0 && reached > 0 && f64::from(set) < 1.15 * f64::from(reached));
+}
+
+/// Masks and lists share one image, and only what a scene has is recorded.
+#[test]
+fn passes_are_those_that_the_lights_need() {
+    let lights = crate::support::ranged_lights(300, 1.0);
+    let mut both = hundred_polygons();
+    both.point_lights = scene(&format!("{FIVE_MATERIALS}{lights}")).point_lights;
+    let names = |rig: &mut Rig| {
+        let inputs = amas::FrameInputs {
+            camera: &rig.scene.cameras[0],
+            samples: 1,
+            exposure: 0.0,
+            split: true,
+            progress: indicatif::ProgressBar::hidden(),
+        };
+        rig.frame.render(&inputs).unwrap().passes.iter().map(|pass| pass.name).collect::<Vec<_>>()
+    };
+    let few = small(&format!("{FIVE_MATERIALS}{}", light(SHAPES[0])));
+    assert_eq!(names(&mut Rig::new(scene(&few))), ["prepass", "direct", "present"]);
+    assert_eq!(names(&mut Rig::new(hundred_polygons())), ["prepass", "cluster", "direct", "present"]);
+    let mut rig = Rig::new(both.clone());
+    assert_eq!(names(&mut rig), ["prepass", "cluster", "direct", "indirect", "present"]);
+    let brute = Rig::with(both, |settings| settings.brute_force = true).render();
+    assert!(relative_errors(&rig.render(), &brute).last().unwrap() <= &1e-5);
+}
+
+/// More lights than a draw takes, and more than a word of masks holds.
+#[test]
+fn a_thousand_lights() {
+    let mut scene = hundred_polygons();
+    scene.area_lights = scene.area_lights.iter().cycle().take(997).cloned().collect();
+    let mut rig = Rig::new(scene.clone());
+    let brute = Rig::with(scene, |settings| settings.brute_force = true).render();
+    assert!(relative_errors(&rig.render(), &brute).last().unwrap() <= &1e-5);
+}
