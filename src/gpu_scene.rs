@@ -4,6 +4,7 @@ mod area;
 mod coincident;
 mod geometry;
 pub mod occluders;
+mod tables;
 mod textures;
 
 use crate::area_lights::AreaLights;
@@ -24,6 +25,7 @@ use glam::Vec3;
 use occluders::Occluders;
 use rayon::prelude::*;
 use std::sync::Arc;
+use tables::Tables;
 use textures::Textures;
 
 /// How a material is drawn: everything its pipelines are specialised by.
@@ -71,6 +73,7 @@ pub struct GpuScene {
     /// Layout that every pipeline of the frame shares.
     pub layout: Arc<PipelineLayout>,
     // What the sets refer to.
+    _tables: Tables,
     _textures: Textures,
     _records: Buffer<MaterialRecord>,
     _nodes: Image,
@@ -89,7 +92,8 @@ impl GpuScene {
             device,
             &[shared::frame::BINDINGS, shared::scene::BINDINGS, shared::material::BINDINGS],
         )?);
-        let (variants, of_mesh) = variants(scene)?;
+        let tables = Tables::new(device, scene)?;
+        let (variants, of_mesh) = variants(scene, &tables)?;
         let seen = scene.area_lights.iter().map(|light| light.visible.then(|| Surface::new(light)));
         let seen: Vec<Option<Surface>> = seen.collect();
         let origin = origin(scene, &seen);
@@ -111,8 +115,9 @@ impl GpuScene {
         let bvh = if scene.render.shadows { Bvh::new(scene, origin) } else { Bvh::default() };
         let occluders = Occluders::new(device, &bvh)?;
         occluders.bind(set.get(0));
-        let area = Area::new(device, &AreaLights::new(scene, origin)?, geometry.luminaires)?;
+        let area = Area::new(device, &AreaLights::new(scene, origin)?, geometry.luminaires, scene.render.shadows)?;
         area.bind(set.get(0));
+        tables.bind(set.get(0));
         let textures = Textures::new(device, scene)?;
         let materials = textures.bind(&layout, scene)?;
         for index in 0..scene.materials.len() {
@@ -130,6 +135,7 @@ impl GpuScene {
             lights,
             area,
             layout,
+            _tables: tables,
             _textures: textures,
             _records: records,
             _nodes: nodes,
@@ -153,8 +159,8 @@ fn reject_unsupported(scene: &Scene) -> Result<()> {
 }
 
 /// Distinct variants, and for each mesh its own, and the one from outside if it is closed.
-fn variants(scene: &Scene) -> Result<(Vec<Variant>, Vec<MeshVariants>)> {
-    let of_material: Vec<_> = scene.materials.iter().map(variant).collect::<Result<_>>()?;
+fn variants(scene: &Scene, tables: &Tables) -> Result<(Vec<Variant>, Vec<MeshVariants>)> {
+    let of_material: Vec<_> = scene.materials.iter().map(|material| variant(material, tables)).collect::<Result<_>>()?;
     let of_mesh: Vec<_> = scene
         .meshes
         .par_iter()
@@ -183,7 +189,7 @@ struct MeshVariants {
     from_outside: Option<usize>,
 }
 
-fn variant(material: &Material) -> Result<Variant> {
+fn variant(material: &Material, tables: &Tables) -> Result<Variant> {
     let used = |parameter| {
         let value = material.value(parameter);
         u32::from(value.texture.is_some() || value.constant[0] > 0.0)
@@ -202,6 +208,7 @@ fn variant(material: &Material) -> Result<Variant> {
         .with(shared::SPEC_LOBE_SUBSURFACE, used(Parameter::Subsurface))
         .with(shared::SPEC_LOBE_METALLIC, used(Parameter::Metallic))
         .with(shared::SPEC_TWO_SIDED, u32::from(material.two_sided));
+    specialization = tables.specialize(material, specialization);
     let slots = slots(material);
     if slots.iter().flatten().any(|&slot| slot >= shared::MATERIAL_TEXTURES) {
         return Err(Error::usage(

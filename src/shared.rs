@@ -133,6 +133,14 @@ shared! {
         AOV_LIGHT_COUNT = 3;
         /// One for every fragment that is shaded.
         AOV_COVERAGE = 4;
+        /// Table of the specular lobe of area lights.
+        SPEC_LTC_SPECULAR = 12;
+        /// Table of the clear coat.
+        SPEC_LTC_COAT = 13;
+        /// Rows of a table's layer; one more holds its axes.
+        LTC_ROWS = 32;
+        /// Columns.
+        LTC_COLUMNS = 32;
         /// Specialisation constant of parameter p's texture slot is this + p.
         SPEC_SLOT = 16;
         /// Specialisation constants of area lights: some are polygons.
@@ -147,6 +155,8 @@ shared! {
         SPEC_TWO_SIDED_LIGHTS = 36;
         /// Clusters have masks that say which area lights reach them.
         SPEC_LIGHT_MASKS = 37;
+        /// Area lights cast shadows.
+        SPEC_SHADOWS = 38;
     }
     sets {
         /// Descriptors of a frame: targets and clusters.
@@ -186,6 +196,8 @@ shared! {
             /// Area lights: [`AreaRecord`](super::AreaRecord)s from texel 0, then vertices, points of cubature, and
             /// the texels of their textures.
             SCENE_AREA_LIGHTS = 3: Sampled;
+            /// Tables of linearly transformed cosines, two layers each: shapes, moments.
+            SCENE_LTC = 4: Sampled;
         }
         /// A material: its textures and constants.
         material = 2 {
@@ -251,6 +263,8 @@ shared! {
             node_count: uint;
             /// Added to the level of detail of material textures.
             texture_bias: float;
+            /// Which sample of the picture this is.
+            sample_index: uint;
             /// Area lights in all.
             area_lights: uint;
             /// Texels of a cluster's mask of area lights, which lie before the lists; 0: every light reaches every pixel.

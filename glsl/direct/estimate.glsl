@@ -9,7 +9,7 @@
 #include "direct/receiver.glsl"
 #include "direct/source.glsl"
 #include "lib/area/outline.glsl"
-#include "lib/area/quadrature.glsl"
+#include "lib/area/strip.glsl"
 #include "direct/pick.glsl"
 
 // Between these ratios of a light's size to a lobe's width the cubature gives way; below the first of all, four points do.
@@ -34,9 +34,9 @@ vec3 lobe_by_quadrature(Receiver r, Source source, Outline outline, Proxy proxy,
         vec2 e = vec2(cos(azimuth.x), sin(azimuth.x));
         vec2 interval = outline_interval(outline, seen, proxy, e);
         if (!(interval.y > interval.x)) continue;
-        for (uint j = 0u; j < RADIAL; ++j) {
-            vec2 radial = gauss(RADIAL, j);
-            ConePoint point = cone_point(proxy, e, interval, radial.x, radial.y * azimuth.y);
+        for (uint j = 0u; j < 2u; ++j) {
+            vec2 radial = gauss(2u, j);
+            Point point = interval_point(proxy, e, interval, radial.x, radial.y * azimuth.y);
             vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
             if (TEXTURED_LIGHTS && source.light.textured) f_cos *= source_texture(source, point.wi, point.weight);
             sum += point.weight * f_cos;
@@ -46,26 +46,24 @@ vec3 lobe_by_quadrature(Receiver r, Source source, Outline outline, Proxy proxy,
 }
 
 // A uniform light on a Lambertian lobe.
-vec3 by_form_factor(Receiver r, Source source, Outline outline) {
+vec3 by_form_factor(Receiver r, Outline outline) {
     vec3 albedo = PI * bsdf_eval_lobe_cos(r.surface.bsdf, vec3(0.0, 0.0, 1.0), LOBE_DIFFUSE);
     return outline_form_factor(outline, r.diffuse.proxy) * albedo;
 }
 
-void lobe_over(inout Estimate sum, Receiver r, Source source, Outline outline, Proxy proxy, float share, uint lobe) {
-    if (share > 0.0) {
-        bool closed = lobe == LOBE_DIFFUSE && LAMBERT && !(TEXTURED_LIGHTS && source.light.textured);
-        vec3 value = closed ? by_form_factor(r, source, outline)
-                            : lobe_by_quadrature(r, source, outline, proxy, lobe);
-        sum.lobes[lobe] += share * source.light.radiance * value;
-    }
-    if (SHADOWS) pick_over(sum.picks[lobe], r, source, outline, proxy, lobe);
-}
-
 // One convex piece of the light.
 void over_outline(inout Estimate sum, Receiver r, Source source, Outline outline, vec3 share) {
-    if (bsdf_has(LOBE_DIFFUSE)) lobe_over(sum, r, source, outline, r.diffuse.proxy, share.x, LOBE_DIFFUSE);
-    if (bsdf_has(LOBE_SPECULAR)) lobe_over(sum, r, source, outline, r.specular.proxy, share.y, LOBE_SPECULAR);
-    if (bsdf_has(LOBE_COAT)) lobe_over(sum, r, source, outline, r.coat.proxy, share.z, LOBE_COAT);
+    bool closed = LAMBERT && !(TEXTURED_LIGHTS && source.light.textured);
+    for (uint lobe = 0u; lobe < LOBES; ++lobe) {
+        if (!bsdf_has(lobe)) continue;
+        Proxy proxy = receiver_proxy(r, lobe);
+        if (share[lobe] > 0.0) {
+            vec3 value = closed && lobe == LOBE_DIFFUSE ? by_form_factor(r, outline)
+                                                        : lobe_by_quadrature(r, source, outline, proxy, lobe);
+            sum.lobes[lobe] += share[lobe] * source.light.radiance * value;
+        }
+        if (SHADOWS) pick_over_outline(sum.picks[lobe], r, source, outline, proxy, lobe);
+    }
 }
 
 void by_cubature(inout Estimate sum, Receiver r, Source source, vec3 share) {
@@ -109,12 +107,41 @@ void over_polygon(inout Estimate sum, Receiver r, Source source, vec3 share) {
     }
 }
 
+vec3 lobe_by_strip(Receiver r, Strip strip, Proxy proxy, uint lobe) {
+    StripImage image = strip_image(strip, proxy);
+    float width = image.longitudes.y - image.longitudes.x;
+    uint meridians = abs(width) < 0.1 ? 2u : 4u;
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < meridians; ++k) {
+        vec2 node = gauss(meridians, k);
+        Meridian meridian = strip_meridian(image, image.longitudes.x + node.x * width);
+        for (uint j = 0u; j < 8u; ++j) {
+            vec2 along = gauss(8u, j);
+            Point point = meridian_point(proxy, image, meridian, along.x, abs(width) * node.y * along.y);
+            sum += point.weight * bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
+        }
+    }
+    return sum;
+}
+
+void over_strip(inout Estimate sum, Receiver r, Source source, vec3 share) {
+    Strip strip = strip_of_line(source.center, source.u, source.light.radius);
+    if (!strip.seen) return;
+    for (uint lobe = 0u; lobe < LOBES; ++lobe) {
+        if (!bsdf_has(lobe)) continue;
+        Proxy proxy = receiver_proxy(r, lobe);
+        if (share[lobe] > 0.0) {
+            sum.lobes[lobe] += share[lobe] * source.light.radiance * lobe_by_strip(r, strip, proxy, lobe);
+        }
+        if (SHADOWS) pick_over_strip(sum.picks[lobe], r, strip, proxy, lobe);
+    }
+}
+
 void over_shape(inout Estimate sum, Receiver r, Source source, vec3 share) {
-    if (ELLIPSES && source.light.kind == AREA_ELLIPSE) {
+    if (LINES && source.light.kind == AREA_LINE) {
+        over_strip(sum, r, source, share);
+    } else if (ELLIPSES && source.light.kind == AREA_ELLIPSE) {
         over_outline(sum, r, source, outline_ellipse(source.center, source.u, source.v), share);
-    } else if (LINES && source.light.kind == AREA_LINE) {
-        Outline outline = outline_line(source.center, source.u, source.light.radius);
-        if (outline.cone.count > 2u) over_outline(sum, r, source, outline, share);
     } else if (POLYGONS) {
         over_polygon(sum, r, source, share);
     }
@@ -138,7 +165,7 @@ vec3 area_reflected(Receiver r, uint index) {
     vec3 reflected = vec3(0.0);
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {
         if (!bsdf_has(lobe)) continue;
-        reflected += sum.lobes[lobe] * (SHADOWS ? pick_visibility(sum.picks[lobe], r.surface, source) : 1.0);
+        reflected += sum.lobes[lobe] * (SHADOWS ? pick_visibility(sum.picks[lobe], r, source) : 1.0);
     }
     return reflected;
 }

@@ -4,6 +4,7 @@
 #ifndef DIRECT_PICK_GLSL
 #define DIRECT_PICK_GLSL
 
+#include "bind/bvh.glsl"
 #include "lib/random.glsl"
 
 // Directions among which one is drawn, per piece of a light: one in each sector of azimuth.
@@ -36,29 +37,43 @@ void pick_offer(inout Pick pick, vec3 wi, float weight) {
     }
 }
 
-void pick_over(inout Pick pick, Receiver r, Source source, Outline outline, Proxy proxy, uint lobe) {
+void pick_over_outline(inout Pick pick, Receiver r, Source source, Outline outline, Proxy proxy, uint lobe) {
     Seen seen = outline_seen(outline, proxy);
     float begin = seen.azimuths.edges[0];
     float extent = seen.azimuths.edges[seen.azimuths.panels] - begin;
+    float width = extent / float(CANDIDATES);
     for (uint k = 0u; k < CANDIDATES; ++k) {
-        float phi = begin + extent * ((float(k) + pick.xi.x) / float(CANDIDATES));
+        float phi = begin + width * (float(k) + pick.xi.x);
         vec2 e = vec2(cos(phi), sin(phi));
         vec2 interval = outline_interval(outline, seen, proxy, e);
         if (!(interval.y > interval.x)) continue;
-        float along = fract(pick.xi.y + float(k) * 0.618034);
-        ConePoint point = cone_point(proxy, e, interval, along, extent / float(CANDIDATES));
+        Point point = interval_point(proxy, e, interval, fract(pick.xi.y + float(k) * 0.618034), width);
         vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
         if (TEXTURED_LIGHTS && source.light.textured) f_cos *= source_texture(source, point.wi, point.weight);
         pick_offer(pick, point.wi, luminance(f_cos) * point.weight);
     }
 }
 
+void pick_over_strip(inout Pick pick, Receiver r, Strip strip, Proxy proxy, uint lobe) {
+    StripImage image = strip_image(strip, proxy);
+    float width = image.longitudes.y - image.longitudes.x;
+    for (uint k = 0u; k < CANDIDATES; ++k) {
+        float across = fract(pick.xi.y + float(k) * 0.618034);
+        Meridian meridian = strip_meridian(image, image.longitudes.x + across * width);
+        float along = (float(k) + pick.xi.x) / float(CANDIDATES);
+        Point point = meridian_point(proxy, image, meridian, along, abs(width));
+        vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
+        pick_offer(pick, point.wi, luminance(f_cos) * point.weight);
+    }
+}
+
 // 0 where something is in the way, else 1.
-float pick_visibility(Pick pick, Surface surface, Source source) {
+float pick_visibility(Pick pick, Receiver r, Source source) {
     if (!(pick.total > 0.0)) return 1.0;
     float distance = source_distance(source, pick.wi);
-    vec3 direction = surface.world_from_local * pick.wi;
-    return occluded(surface.shadow_origin, direction, 0.0, distance * (1.0 - 1e-4)) ? 0.0 : 1.0;
+    vec3 direction = r.surface.world_from_local * pick.wi;
+    // Short of the light, which may be in the tree itself.
+    return occluded(r.shadow_origin, direction, 0.0, distance * (1.0 - 1e-4)) ? 0.0 : 1.0;
 }
 
 #endif

@@ -2,9 +2,12 @@
 #ifndef DIRECT_RECEIVER_GLSL
 #define DIRECT_RECEIVER_GLSL
 
+#include "bind/bvh.glsl"
 #include "bind/ltc.glsl"
 #include "bind/surface.glsl"
 #include "lib/area/proxy.glsl"
+
+layout(constant_id = 38) const bool SHADOWS = false;
 
 // A lobe's coordinates, and how wide it is where it is narrowest, as the tangent of an angle.
 struct Lobe {
@@ -18,6 +21,7 @@ struct Receiver {
     Lobe specular;
     Lobe coat;
     float narrowest;
+    vec3 shadow_origin;
 };
 
 // Below this cosine the tables' matrices are nearly singular; the quadrature needs no exact fit.
@@ -40,6 +44,22 @@ Lobe coat_lobe(float alpha, vec3 wo, float cos_o) {
     return Lobe(proxy_of_microfacets(shape, sqrt(alpha), wo), lobe_width(alpha, cos_o));
 }
 
+Proxy receiver_proxy(Receiver r, uint lobe) {
+    return lobe == LOBE_DIFFUSE ? r.diffuse.proxy : lobe == LOBE_SPECULAR ? r.specular.proxy : r.coat.proxy;
+}
+
+// Off the triangle, on the viewer's side. Its normal is that of the plane of the pixel and its neighbours, which all lie
+// on the one triangle.
+vec3 shadow_origin(vec3 p) {
+    vec3 normal = cross(dFdx(p), dFdy(p));
+    float length2 = dot(normal, normal);
+    vec3 wo = view_direction();
+    normal = length2 > 0.0 ? normal * inversesqrt(length2) : wo;
+    vec3 coordinates = abs(p);
+    float scale = max(max(coordinates.x, max(coordinates.y, coordinates.z)), distance(p, frame.eye));
+    return offset_origin(p, dot(normal, wo) < 0.0 ? -normal : normal, scale);
+}
+
 Receiver receiver_here() {
     Receiver r;
     r.surface = surface_here();
@@ -56,6 +76,7 @@ Receiver receiver_here() {
         r.coat = coat_lobe(lerp(0.1, 0.001, p.clearcoat_gloss), wo, cos_o);
         r.narrowest = min(r.narrowest, r.coat.width);
     }
+    if (SHADOWS) r.shadow_origin = shadow_origin(r.surface.position);
     return r;
 }
 

@@ -9,7 +9,6 @@ layout(constant_id = 33) const bool ELLIPSES = true;
 layout(constant_id = 34) const bool LINES = true;
 layout(constant_id = 35) const bool TEXTURED_LIGHTS = true;
 layout(constant_id = 36) const bool TWO_SIDED_LIGHTS = true;
-layout(constant_id = 38) const bool SHADOWS = false;
 
 struct Source {
     AreaLight light;

@@ -32,7 +32,12 @@ impl Area {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
-    pub fn new(device: &Arc<Device>, lights: &AreaLights, luminaires: Vec<Draw>) -> Result<Self> {
+    pub fn new(
+        device: &Arc<Device>,
+        lights: &AreaLights,
+        luminaires: Vec<Draw>,
+        shadows: bool,
+    ) -> Result<Self> {
         let mut texels = lights.texels();
         let (width, most) = (1 << AREA_WIDTH_LOG2, 1 << AREA_HEIGHT_LOG2);
         let rows = texels.len().div_ceil(width).max(1);
@@ -55,6 +60,7 @@ impl Area {
         let kind = |wanted| move |record: &AreaRecord| record.kind & ((1 << AREA_KIND_BITS) - 1) == wanted;
         let flag = |wanted| move |record: &AreaRecord| record.kind & wanted != 0;
         let specialization = vec![
+            (shared::SPEC_SHADOWS, u32::from(shadows)),
             (shared::SPEC_POLYGONS, u32::from(lights.records.iter().any(kind(shared::AREA_POLYGON)))),
             (shared::SPEC_ELLIPSES, u32::from(lights.records.iter().any(kind(shared::AREA_ELLIPSE)))),
             (shared::SPEC_LINES, u32::from(lights.records.iter().any(kind(shared::AREA_LINE)))),

@@ -25,33 +25,6 @@ Outline outline_ellipse(vec3 center, vec3 half_a, vec3 half_b) {
     return Outline(true, horizon, center, half_a, half_b);
 }
 
-// What is seen of an open cylinder from `start` along `axis`: the strip between its tangent planes. Each end is an arc;
-// the strip ends where it has the arc's area, two thirds of the way to the point that is nearest.
-Outline outline_line(vec3 start, vec3 axis, float radius) {
-    float length = sqrt(max(dot(axis, axis), TINY));
-    vec3 e = axis / length;
-    float first = dot(start, e);
-    vec3 out_vector = start - first * e;
-    float d = sqrt(dot(out_vector, out_vector));
-    Cone cone = cone_begin();
-    if (d > radius) {
-        vec3 towards = out_vector / d;
-        float ratio = radius / d;
-        float rest = sqrt(max((1.0 - ratio) * (1.0 + ratio), 0.0));
-        vec3 side = cross(e, towards) * (radius * rest);
-        vec3 tangent = towards * (d * rest * rest);
-        // √(d² − R²) / (d − R), how much farther along the axis the nearest point appears.
-        float bulge = 1.0 + 2.0 / 3.0 * (sqrt((1.0 + ratio) / max(1.0 - ratio, 1e-6)) - 1.0);
-        vec3 a = e * (first * bulge);
-        vec3 b = e * ((first + length) * bulge);
-        vec3 corners[4] = vec3[](tangent + side + a, tangent + side + b, tangent - side + b, tangent - side + a);
-        for (uint i = 0u; i < 4u; ++i) cone_edge(cone, corners[i], corners[(i + 1u) & 3u]);
-    }
-    // From `side` to the axis to −`side`: clockwise as seen, whichever way the axis points.
-    cone_close(cone, -1.0);
-    return outline_polygon(cone);
-}
-
 // An outline in the space of a lobe's proxy, with the azimuths at which it is looked at.
 struct Seen {
     EllipseCone ellipse;
@@ -107,6 +80,18 @@ vec2 outline_interval(Outline outline, Seen seen, Proxy proxy, vec2 e) {
         interval = vec2(max(interval.x, inside.x), min(interval.y, inside.y));
     }
     return interval;
+}
+
+// The point at `along` of [0, 1] of an interval of cosθ; `width` is its share of azimuth. Evenly in u = ((1 + cosθ)/2)²,
+// which a density of (1 + cosθ)/2 over the whole sphere makes uniform: a lobe has tails behind its cosine's horizon.
+Point interval_point(Proxy proxy, vec2 e, vec2 interval, float along, float width) {
+    vec2 half_cos = 0.5 + 0.5 * interval;
+    float u = mix(sqr(half_cos.y), sqr(half_cos.x), along);
+    float g = sqrt(u);
+    vec3 q = vec3(2.0 * sqrt(max(g - u, 0.0)) * e, 2.0 * g - 1.0);
+    // u₂ − u₁ by factors: the squares of a far light's interval would cancel. dcosθ = du / g.
+    float du = (half_cos.y - half_cos.x) * (half_cos.y + half_cos.x);
+    return point_of(proxy, q, width * du / max(g, 1e-4));
 }
 
 // Irradiance of a uniform light over π times its radiance, in the space of a proxy: exact along θ.
