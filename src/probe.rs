@@ -1,8 +1,9 @@
 //! Calls a function of the shaders' library for rows of inputs: how tests reach the GLSL that ships.
 
 use crate::error::Result;
-use crate::gpu::{Buffer, BufferUse, ComputePipeline, Device, PipelineLayout, Shader, Specialization, Use};
-use crate::gpu_scene::occluders::Occluders;
+use crate::gpu::{
+    Buffer, BufferUse, ComputePipeline, DescriptorSet, Device, PipelineLayout, Shader, Specialization, Use,
+};
 use crate::shared::{self, LINEAR_GROUP};
 use bytemuck::Pod;
 use std::sync::Arc;
@@ -17,10 +18,10 @@ pub fn run<In: Pod, Out: Pod>(
     specialization: &Specialization,
     rows: &[In],
 ) -> Result<Vec<Out>> {
-    run_among(device, shader, specialization, None, rows)
+    run_among(device, shader, specialization, &|_| (), rows)
 }
 
-/// As [`run`], for a shader that also sees what hides lights.
+/// As [`run`], for a shader that also sees what `bind` puts into a scene's set.
 ///
 /// # Errors
 /// As [`run`].
@@ -28,15 +29,13 @@ pub fn run_among<In: Pod, Out: Pod>(
     device: &Arc<Device>,
     shader: Shader,
     specialization: &Specialization,
-    occluders: Option<&Occluders>,
+    bind: &dyn Fn(DescriptorSet<'_>),
     rows: &[In],
 ) -> Result<Vec<Out>> {
     let layout = PipelineLayout::new(device, &[shared::probe::BINDINGS, shared::scene::BINDINGS])?;
     let layout = Arc::new(layout);
     let scene = layout.allocate(shared::scene::SET, 1)?;
-    if let Some(occluders) = occluders {
-        occluders.bind(scene.get(0));
-    }
+    bind(scene.get(0));
     let pipeline = ComputePipeline::new(device, &layout, shader, specialization)?;
     let input = Buffer::with(device, "probe rows", BufferUse::Storage, rows)?;
     let output = Buffer::<Out>::new(device, "probe results", BufferUse::Storage, rows.len())?;

@@ -257,7 +257,9 @@ fn whole(points: &[AreaPoint]) -> AreaPoint {
         light += power;
         middle += power * position;
     }
-    point((middle / light).as_vec3(), area, sum / area)
+    // A sliver that no triangle is left of has no points.
+    let middle = if light > 0.0 { middle / light } else { DVec3::ZERO };
+    point(middle.as_vec3(), area, if area > 0.0 { sum / area } else { DVec3::ZERO })
 }
 
 fn marked(ring: impl ExactSizeIterator<Item = Vec3>) -> impl Iterator<Item = [f32; 4]> {

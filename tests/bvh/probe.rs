@@ -15,7 +15,8 @@ pub(crate) fn occluded(gpu: &CheckedGpu, scene: &Scene, rows: &[RayProbeRow]) ->
     let occluders = Occluders::new(gpu, &Bvh::new(scene, Vec3::ZERO)).unwrap();
     let none = Specialization::default();
     let values: Vec<u32> =
-        amas::probe::run_among(gpu, shaders::PROBE_BVH_COMP, &none, Some(&occluders), rows).unwrap();
+        amas::probe::run_among(gpu, shaders::PROBE_BVH_COMP, &none, &|scene| occluders.bind(scene), rows)
+            .unwrap();
     assert!(values.iter().all(|&value| value <= 1));
     values.into_iter().map(|value| value == 1).collect()
 }

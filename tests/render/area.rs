@@ -213,3 +213,32 @@ fn a_thousand_lights() {
     let brute = Rig::with(scene, |settings| settings.brute_force = true).render();
     assert!(relative_errors(&rig.render(), &brute).last().unwrap() <= &1e-5);
 }
+
+/// Lights that touch surfaces, that are slivers, immense, tiny, blinding or under the floor: every value stays finite.
+#[test]
+fn extreme_lights_stay_finite() {
+    let light = |shape: &str, radiance: &str| {
+        let shape = format!("[[light]]\n{shape}\nradiance = [{radiance}, 1, 1e-30]\n");
+        [format!("{shape}visible = true\n"), format!("{shape}visible = false\n")].concat()
+    };
+    let text = [
+        light("type = \"rect\"\ncenter = [0, 0, 1]\nu = [1, 0, 0]\nv = [0, 1, 0]\ntwo_sided = true", "1e18"),
+        light("type = \"rect\"\ncenter = [0, 0, 0]\nu = [9, 0, 0]\nv = [0, 0, -9]", "1"),
+        light("type = \"rect\"\ncenter = [0, 9e8, 0]\nu = [1e9, 0, 0]\nv = [0, 0, 1e9]", "1e9"),
+        light("type = \"disk\"\ncenter = [0, 1, 0]\nnormal = [0, 1, 0]\nradius = 1e-12", "1e18"),
+        light("type = \"disk\"\ncenter = [0, 1, 0]\nu = [1, 0, 0]\nv = [1, 1e-5, 0]", "1"),
+        light("type = \"line\"\na = [0, -1, 0]\nb = [0, 1, 0]\nradius = 1e-9", "1e18"),
+        light("type = \"line\"\na = [0, 1, 0]\nb = [1e-6, 1, 0]\nradius = 5", "1"),
+        light("type = \"polygon\"\nvertices = [[0, 1, 0], [2, 1, 0], [1, 1, 1e-6]]", "1"),
+        light(
+            "type = \"polygon\"\nvertices = [[0, 1, 0], [1, 1, 0], [2, 1, 0], [2, 1, 1], [1, 1, 1], [1, 1, 1e-3]]\n\
+             holes = [[[1.2, 1, 0.2], [1.8, 1, 0.2], [1.8, 1, 0.8]], [[1.3, 1, 0.5], [1.2, 1, 0.2], [1.4, 1, 0.9]]]",
+            "1",
+        ),
+    ];
+    for samples in [1, 2] {
+        let text = small(&format!("{FIVE_MATERIALS}{}", text.concat()))
+            .replace("[render]", &format!("[render]\nsamples = {samples}"));
+        Rig::new(scene(&text)).render();
+    }
+}

@@ -9,6 +9,7 @@ mod area;
 mod cameras;
 mod clusters;
 mod far;
+mod light_textures;
 mod lists;
 mod luminaires;
 mod oracle;
