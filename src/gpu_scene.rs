@@ -115,7 +115,8 @@ impl GpuScene {
         let bvh = if scene.render.shadows { Bvh::new(scene, origin) } else { Bvh::default() };
         let occluders = Occluders::new(device, &bvh)?;
         occluders.bind(set.get(0));
-        let area = Area::new(device, &AreaLights::new(scene, origin)?, geometry.luminaires, scene.render.shadows)?;
+        let area =
+            Area::new(device, &AreaLights::new(scene, origin)?, geometry.luminaires, scene.render.shadows)?;
         area.bind(set.get(0));
         tables.bind(set.get(0));
         let textures = Textures::new(device, scene)?;
@@ -146,10 +147,7 @@ impl GpuScene {
 }
 
 fn reject_unsupported(scene: &Scene) -> Result<()> {
-    let unsupported = [
-        (scene.render.vpls > 0, "indirect light", "set indirect.vpls = 0"),
-        (scene.render.shadows, "shadows", "set shadows = false"),
-    ];
+    let unsupported = [(scene.render.vpls > 0, "indirect light", "set indirect.vpls = 0")];
     match unsupported.into_iter().find(|(used, ..)| *used) {
         Some((_, what, remedy)) => {
             Err(Error::usage(format!("{what}: not supported yet by the renderer"), remedy))
@@ -160,7 +158,8 @@ fn reject_unsupported(scene: &Scene) -> Result<()> {
 
 /// Distinct variants, and for each mesh its own, and the one from outside if it is closed.
 fn variants(scene: &Scene, tables: &Tables) -> Result<(Vec<Variant>, Vec<MeshVariants>)> {
-    let of_material: Vec<_> = scene.materials.iter().map(|material| variant(material, tables)).collect::<Result<_>>()?;
+    let of_material: Vec<_> =
+        scene.materials.iter().map(|material| variant(material, tables)).collect::<Result<_>>()?;
     let of_mesh: Vec<_> = scene
         .meshes
         .par_iter()

@@ -19,7 +19,8 @@ impl Tables {
     /// # Errors
     /// [`crate::Error::Input`] for damaged tables, [`crate::Error::Vulkan`] where memory is short.
     pub(super) fn new(device: &Arc<Device>, scene: &Scene) -> Result<Self> {
-        let mut layers: Vec<_> = scene.materials.iter().flat_map(|m| [specular(m), coat(m)]).flatten().collect();
+        let mut layers: Vec<_> =
+            scene.materials.iter().flat_map(|m| [specular(m), coat(m)]).flatten().collect();
         layers.sort_unstable();
         layers.dedup();
         if scene.area_lights.is_empty() {
