@@ -123,6 +123,16 @@ shared! {
         SPEC_TONEMAP = 10;
         /// Arbitrary output variable to write: `AOV_*`.
         SPEC_AOV = 11;
+        /// Function of the area lights' probe: `AREA_*`.
+        SPEC_AREA = 12;
+        /// Form factor of rings of vertices.
+        AREA_POLYGON = 0;
+        /// Form factor of an ellipse, and its azimuths.
+        AREA_ELLIPSE = 1;
+        /// An ellipse at one azimuth.
+        AREA_INTERVAL = 2;
+        /// Form factor of the outline of a cylinder.
+        AREA_LINE = 3;
         /// World position.
         AOV_POSITION = 0;
         /// Shading normal, turned to the viewer.
@@ -457,6 +467,19 @@ shared! {
             wo: vec4;
             /// Local frame.
             wi: vec4;
+        }
+        /// A row of the area lights' probe.
+        AreaProbeRow {
+            /// What vertices and axes are relative to.
+            center: vec3;
+            /// Of a sphere around it that holds the light; of the cylinder.
+            radius: float;
+            /// Azimuth, as a unit vector of x and y.
+            azimuth: vec3;
+            /// Vertices in use.
+            count: uint;
+            /// xyz, and 1 for the last of its ring; half axes of the ellipse; ends of the cylinder.
+            vertices: vec4[16];
         }
         /// Pairs of pixel and light in a tile.
         TilePairs {
