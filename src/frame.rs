@@ -183,6 +183,7 @@ impl Frame {
         let mut constants = camera_constants(&camera, self.settings.size, jitter, self.scene.bounds);
         // N samples share a pixel, so each filters its textures over an N-th of it.
         constants.sample_index = sample;
+        constants.light_error = self.settings.light_error;
         constants.texture_bias = -0.5 * (inputs.samples as f32).log2();
         constants.light_count = self.scene.lights.lights.len() as u32;
         constants.direct_begin = if self.settings.brute_force { 0 } else { self.scene.lights.ranged as u32 };

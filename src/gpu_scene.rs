@@ -207,7 +207,7 @@ fn variant(material: &Material, tables: &Tables) -> Result<Variant> {
         .with(shared::SPEC_LOBE_SUBSURFACE, used(Parameter::Subsurface))
         .with(shared::SPEC_LOBE_METALLIC, used(Parameter::Metallic))
         .with(shared::SPEC_TWO_SIDED, u32::from(material.two_sided));
-    specialization = tables.specialize(material, specialization);
+    specialization = tables.specialize(material, specialization)?;
     let slots = slots(material);
     if slots.iter().flatten().any(|&slot| slot >= shared::MATERIAL_TEXTURES) {
         return Err(Error::usage(

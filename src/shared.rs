@@ -123,16 +123,6 @@ shared! {
         SPEC_TONEMAP = 10;
         /// Arbitrary output variable to write: `AOV_*`.
         SPEC_AOV = 11;
-        /// Function of the area lights' probe: `AREA_*`.
-        SPEC_AREA = 12;
-        /// Form factor of rings of vertices.
-        AREA_POLYGON = 0;
-        /// Form factor of an ellipse, and its azimuths.
-        AREA_ELLIPSE = 1;
-        /// An ellipse at one azimuth.
-        AREA_INTERVAL = 2;
-        /// Form factor of the outline of a cylinder.
-        AREA_LINE = 3;
         /// World position.
         AOV_POSITION = 0;
         /// Shading normal, turned to the viewer.
@@ -147,6 +137,10 @@ shared! {
         SPEC_LTC_SPECULAR = 12;
         /// Table of the clear coat.
         SPEC_LTC_COAT = 13;
+        /// The specular lobe's closed form may be exact enough somewhere.
+        SPEC_CLOSED_FORM = 14;
+        /// Principled: the table is that of F = 1, not of a dielectric.
+        SPEC_LTC_METALLIC = 15;
         /// Rows of a table's layer; one more holds its axes.
         LTC_ROWS = 32;
         /// Columns.
@@ -167,6 +161,16 @@ shared! {
         SPEC_LIGHT_MASKS = 37;
         /// Area lights cast shadows.
         SPEC_SHADOWS = 38;
+        /// Function of the area lights' probe: `PROBE_*`.
+        SPEC_AREA_PROBE = 39;
+        /// Form factor of rings of vertices.
+        PROBE_POLYGON = 0;
+        /// Form factor of an ellipse, and its azimuths.
+        PROBE_ELLIPSE = 1;
+        /// An ellipse at one azimuth.
+        PROBE_INTERVAL = 2;
+        /// Form factor of the outline of a cylinder.
+        PROBE_LINE = 3;
     }
     sets {
         /// Descriptors of a frame: targets and clusters.
@@ -275,6 +279,8 @@ shared! {
             texture_bias: float;
             /// Which sample of the picture this is.
             sample_index: uint;
+            /// Relative error that a light may have.
+            light_error: float;
             /// Area lights in all.
             area_lights: uint;
             /// Texels of a cluster's mask of area lights, which lie before the lists; 0: every light reaches every pixel.

@@ -8,6 +8,8 @@ layout(set = SET_scene, binding = SCENE_LTC) uniform texture2DArray ltc_tables;
 // Layer of the table of the specular lobe and of the coat; which table that is, the BSDF decides.
 layout(constant_id = 12) const uint LTC_SPECULAR = 0u;
 layout(constant_id = 13) const uint LTC_COAT = 0u;
+// Principled: the table is that of F = 1, not of a dielectric.
+layout(constant_id = 15) const bool LTC_METALLIC = false;
 
 vec4 ltc_bilinear(int layer, vec2 at, ivec2 last) {
     ivec2 low = min(ivec2(at), last);

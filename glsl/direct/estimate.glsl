@@ -2,12 +2,14 @@
 //
 //   a light small against the lobe   cubature at points of the light's surface, which come with it
 //   Lambert                          the form factor
-//   any other                        quadrature in the lobe's own coordinates (lib/area/quadrature.glsl)
+//   a lobe that a transformed cosine fits within light_error   the form factor in the lobe's own coordinates
+//   any other                        quadrature in these coordinates (lib/area/quadrature.glsl)
 #ifndef DIRECT_ESTIMATE_GLSL
 #define DIRECT_ESTIMATE_GLSL
 
 #include "direct/receiver.glsl"
 #include "direct/source.glsl"
+#include "direct/closed_form.glsl"
 #include "lib/area/outline.glsl"
 #include "lib/area/strip.glsl"
 #include "direct/pick.glsl"
@@ -18,7 +20,7 @@ const float SMALL = 1.0;
 const float LARGE = 1.5;
 const float CUT = 30.0;
 
-const bool LAMBERT = MODEL == MODEL_PLASTIC || (MODEL == MODEL_MATTE && !ROUGH_MATTE);
+bool lambert() { return MODEL == MODEL_PLASTIC || (MODEL == MODEL_MATTE && !ROUGH_MATTE); }
 
 // A light's share of each lobe, and the direction from which one ray asks how much of it arrives.
 struct Estimate {
@@ -38,28 +40,20 @@ vec3 lobe_by_quadrature(Receiver r, Source source, Outline outline, Proxy proxy,
             vec2 radial = gauss(2u, j);
             Point point = interval_point(proxy, e, interval, radial.x, radial.y * azimuth.y);
             vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
-            if (TEXTURED_LIGHTS && source.light.textured) f_cos *= source_texture(source, point.wi, point.weight);
+            if (source_textured(source)) f_cos *= source_texture(source, point.wi, point.weight);
             sum += point.weight * f_cos;
         }
     }
     return sum;
 }
 
-// A uniform light on a Lambertian lobe.
-vec3 by_form_factor(Receiver r, Outline outline) {
-    vec3 albedo = PI * bsdf_eval_lobe_cos(r.surface.bsdf, vec3(0.0, 0.0, 1.0), LOBE_DIFFUSE);
-    return outline_form_factor(outline, r.diffuse.proxy) * albedo;
-}
-
 // One convex piece of the light.
 void over_outline(inout Estimate sum, Receiver r, Source source, Outline outline, vec3 share) {
-    bool closed = LAMBERT && !(TEXTURED_LIGHTS && source.light.textured);
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {
         if (!bsdf_has(lobe)) continue;
         Proxy proxy = receiver_proxy(r, lobe);
-        if (share[lobe] > 0.0) {
-            vec3 value = closed && lobe == LOBE_DIFFUSE ? by_form_factor(r, outline)
-                                                        : lobe_by_quadrature(r, source, outline, proxy, lobe);
+        if (share[lobe] > 0.0 && !(lambert() && lobe == LOBE_DIFFUSE && !source_textured(source))) {
+            vec3 value = lobe_by_quadrature(r, source, outline, proxy, lobe);
             sum.lobes[lobe] += share[lobe] * source.light.radiance * value;
         }
         if (SHADOWS) pick_over_outline(sum.picks[lobe], r, source, outline, proxy, lobe);
@@ -130,7 +124,7 @@ void over_strip(inout Estimate sum, Receiver r, Source source, vec3 share) {
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {
         if (!bsdf_has(lobe)) continue;
         Proxy proxy = receiver_proxy(r, lobe);
-        if (share[lobe] > 0.0) {
+        if (share[lobe] > 0.0 && !(lambert() && lobe == LOBE_DIFFUSE)) {
             sum.lobes[lobe] += share[lobe] * source.light.radiance * lobe_by_strip(r, strip, proxy, lobe);
         }
         if (SHADOWS) pick_over_strip(sum.picks[lobe], r, strip, proxy, lobe);
@@ -147,6 +141,25 @@ void over_shape(inout Estimate sum, Receiver r, Source source, vec3 share) {
     }
 }
 
+// Takes over from the quadrature where the closed form is exact enough, and returns what is left to it.
+vec3 by_closed_form(inout Estimate sum, Receiver r, Source source, vec3 share) {
+    if (source_textured(source)) return share;
+    if (lambert() && share.x > 0.0) {
+        vec3 albedo = PI * bsdf_eval_lobe_cos(r.surface.bsdf, vec3(0.0, 0.0, 1.0), LOBE_DIFFUSE);
+        float form_factor = source_form_factor(source, r.surface, mat3(1.0));
+        sum.lobes[LOBE_DIFFUSE] += (share.x * form_factor) * source.light.radiance * albedo;
+    }
+    if (CLOSED_FORM && share.y > 0.0) {
+        float form_factor = source_form_factor(source, r.surface, r.specular.proxy.q_from_local);
+        // The fit errs by at most its total variation, of a whole that is 1.
+        if (r.variation <= frame.light_error * form_factor) {
+            sum.lobes[LOBE_SPECULAR] += (share.y * form_factor) * source.light.radiance * r.mass;
+            share.y = 0.0;
+        }
+    }
+    return share;
+}
+
 // Radiance towards the viewer from one area light.
 vec3 area_reflected(Receiver r, uint index) {
     Source source = source_of(area_light(index), r.surface);
@@ -161,6 +174,7 @@ vec3 area_reflected(Receiver r, uint index) {
         if (SHADOWS) sum.picks[lobe] = pick_begin(index, lobe);
     }
     if (any(lessThan(share, vec3(1.0)))) by_cubature(sum, r, source, 1.0 - share);
+    share = by_closed_form(sum, r, source, share);
     if (SHADOWS || any(greaterThan(share, vec3(0.0)))) over_shape(sum, r, source, share);
     vec3 reflected = vec3(0.0);
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {

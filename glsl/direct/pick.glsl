@@ -49,7 +49,7 @@ void pick_over_outline(inout Pick pick, Receiver r, Source source, Outline outli
         if (!(interval.y > interval.x)) continue;
         Point point = interval_point(proxy, e, interval, fract(pick.xi.y + float(k) * 0.618034), width);
         vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
-        if (TEXTURED_LIGHTS && source.light.textured) f_cos *= source_texture(source, point.wi, point.weight);
+        if (source_textured(source)) f_cos *= source_texture(source, point.wi, point.weight);
         pick_offer(pick, point.wi, luminance(f_cos) * point.weight);
     }
 }

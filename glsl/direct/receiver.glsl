@@ -5,8 +5,10 @@
 #include "bind/bvh.glsl"
 #include "bind/ltc.glsl"
 #include "bind/surface.glsl"
+#include "direct/albedo.glsl"
 #include "lib/area/proxy.glsl"
 
+layout(constant_id = 14) const bool CLOSED_FORM = false;
 layout(constant_id = 38) const bool SHADOWS = false;
 
 // A lobe's coordinates, and how wide it is where it is narrowest, as the tangent of an angle.
@@ -21,6 +23,8 @@ struct Receiver {
     Lobe specular;
     Lobe coat;
     float narrowest;
+    vec3 mass;        // albedo of the specular lobe
+    float variation;  // and how far its transformed cosine is from it, at most: total variation
     vec3 shadow_origin;
 };
 
@@ -30,10 +34,9 @@ const float LEAST_COSINE = 0.01;
 // A lobe's width across the plane of incidence is alpha, along it alpha cosθo: between the two.
 float lobe_width(float alpha, float cos_o) { return alpha * sqrt(cos_o); }
 
-Lobe specular_lobe(vec2 alpha, vec3 wo, float cos_o) {
+Lobe specular_lobe(LtcTexel texel, vec2 alpha, vec3 wo, float cos_o) {
     float mean = ANISOTROPIC ? sqrt(alpha.x * alpha.y) : alpha.x;
-    vec4 shape = ltc_at(LTC_SPECULAR, sqrt(mean), cos_o).shape;
-    Proxy proxy = proxy_of_microfacets(shape, 2.0 * mean, wo);
+    Proxy proxy = proxy_of_microfacets(texel.shape, 2.0 * mean, wo);
     if (ANISOTROPIC) proxy = proxy_anisotropic(proxy, alpha, wo);
     return Lobe(proxy, lobe_width(ANISOTROPIC ? min(alpha.x, alpha.y) : alpha.x, cos_o));
 }
@@ -69,7 +72,14 @@ Receiver receiver_here() {
     r.diffuse = Lobe(proxy_of_cosine(), 1.0);
     r.narrowest = 1.0;
     if (bsdf_has(LOBE_SPECULAR)) {
-        r.specular = specular_lobe(vec2(p.alpha_x, p.alpha_y), wo, cos_o);
+        float alpha = ANISOTROPIC ? sqrt(p.alpha_x * p.alpha_y) : p.alpha_x;
+        LtcTexel texel = ltc_at(LTC_SPECULAR, sqrt(alpha), cos_o);
+        r.specular = specular_lobe(texel, vec2(p.alpha_x, p.alpha_y), wo, cos_o);
+        if (CLOSED_FORM) {
+            Albedo albedo = specular_albedo(p, texel.moments);
+            r.mass = albedo.mass;
+            r.variation = texel.moments.w + albedo.unfitted;
+        }
         r.narrowest = min(r.narrowest, r.specular.width);
     }
     if (bsdf_has(LOBE_COAT)) {

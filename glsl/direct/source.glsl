@@ -44,6 +44,8 @@ bool source_shines(Source source) {
     return source.lit && (source.front || (TWO_SIDED_LIGHTS && source.light.two_sided));
 }
 
+bool source_textured(Source source) { return TEXTURED_LIGHTS && source.light.textured; }
+
 // Area as seen from direction wi, per area; of a line, per length.
 float source_projection(Source source, vec3 wi) {
     if (LINES && source.light.kind == AREA_LINE) {

@@ -14,6 +14,8 @@ pub struct FrameSettings {
     pub tonemap: Tonemap,
     /// Radiance where no surface is.
     pub background: [f32; 3],
+    /// Relative error that a light may have.
+    pub light_error: f32,
     /// Longest light list.
     pub max_lights_per_cluster: u32,
     /// Perspective camera; orthographic otherwise.
@@ -30,6 +32,7 @@ impl FrameSettings {
             size: render.size,
             tonemap: render.tonemap,
             background: render.background,
+            light_error: render.light_error,
             max_lights_per_cluster: render.max_lights_per_cluster,
             perspective: matches!(camera.projection, Projection::Perspective { .. }),
             brute_force: false,

@@ -11,6 +11,7 @@ use std::sync::Arc;
 pub(super) struct Tables {
     layers: Vec<Layer>,
     image: Image,
+    light_error: f32,
 }
 
 impl Tables {
@@ -48,7 +49,7 @@ impl Tables {
             },
         )?;
         image.upload(&[&texels], Use::Texture)?;
-        Ok(Self { layers, image })
+        Ok(Self { layers, image, light_error: scene.render.light_error })
     }
 
     /// Puts them where the shaders look.
@@ -56,16 +57,39 @@ impl Tables {
         set.image(shared::scene::SCENE_LTC, &self.image, Use::Texture);
     }
 
-    /// Which of them a material's lobes use.
-    #[must_use]
-    pub(super) fn specialize(&self, material: &Material, specialization: Specialization) -> Specialization {
+    /// Which of them a material's lobes use, and how.
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] for damaged tables.
+    pub(super) fn specialize(
+        &self,
+        material: &Material,
+        specialization: Specialization,
+    ) -> Result<Specialization> {
         let index = |layer: Option<Layer>| {
             let at = layer.and_then(|layer| self.layers.binary_search(&layer).ok());
             at.unwrap_or(0) as u32
         };
-        specialization
+        let metallic = specular(material) == Some(Layer::PrincipledSpecular);
+        Ok(specialization
             .with(shared::SPEC_LTC_SPECULAR, index(specular(material)))
             .with(shared::SPEC_LTC_COAT, index(coat(material)))
+            .with(shared::SPEC_LTC_METALLIC, u32::from(metallic))
+            .with(shared::SPEC_CLOSED_FORM, u32::from(self.closed_form(material)?)))
+    }
+
+    /// Whether the lobe's transformed cosine is within the error that lights may have somewhere: it fits best from above.
+    fn closed_form(&self, material: &Material) -> Result<bool> {
+        let roughness = material.value(Parameter::Roughness);
+        let aspect = material.value(Parameter::Aspect);
+        let isotropic = aspect.texture.is_none() && (aspect.constant[0] - 1.0).abs() < 1e-6;
+        let Some(layer) = specular(material).filter(|layer| isotropic && self.layers.contains(layer)) else {
+            return Ok(false);
+        };
+        let constant = f64::from(roughness.constant[0]);
+        let r = if material.squared_roughness { constant } else { constant.sqrt() };
+        let variation = ltc::tables()?.lookup(layer, r, 1.0).moments[3];
+        Ok(roughness.texture.is_some() || variation < f64::from(self.light_error))
     }
 }
 

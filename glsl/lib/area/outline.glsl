@@ -36,9 +36,10 @@ Azimuths ellipse_range(EllipseCone ellipse) {
     Azimuths azimuths;
     azimuths.panels = 1u;
     azimuths.circle = ellipse_contains_axis(ellipse, 1.0) || ellipse_contains_axis(ellipse, -1.0);
-    vec2 range = azimuths.circle ? vec2(0.0, PI) : ellipse_azimuths(ellipse);
-    azimuths.edges[0] = range.x - range.y;
-    azimuths.edges[1] = range.x + range.y;
+    vec3 range = azimuths.circle ? vec3(1.0, 0.0, PI) : ellipse_azimuths(ellipse);
+    float middle = atan(range.y, range.x);
+    azimuths.edges[0] = middle - range.z;
+    azimuths.edges[1] = middle + range.z;
     return azimuths;
 }
 
@@ -92,19 +93,6 @@ Point interval_point(Proxy proxy, vec2 e, vec2 interval, float along, float widt
     // u₂ − u₁ by factors: the squares of a far light's interval would cancel. dcosθ = du / g.
     float du = (half_cos.y - half_cos.x) * (half_cos.y + half_cos.x);
     return point_of(proxy, q, width * du / max(g, 1e-4));
-}
-
-// Irradiance of a uniform light over π times its radiance, in the space of a proxy: exact along θ.
-float outline_form_factor(Outline outline, Proxy proxy) {
-    Seen seen = outline_seen(outline, proxy);
-    float sum = 0.0;
-    for (uint k = 0u; k < seen.azimuths.panels * seen.nodes; ++k) {
-        vec2 azimuth = outline_azimuth(outline, seen, k);
-        vec2 e = vec2(cos(azimuth.x), sin(azimuth.x));
-        vec2 interval = max(outline_interval(outline, seen, proxy, e), 0.0);
-        sum += azimuth.y * max((interval.y - interval.x) * (interval.y + interval.x), 0.0);
-    }
-    return 0.5 * INV_PI * sum;
 }
 
 #endif
