@@ -4,7 +4,7 @@
 
 #include "shared.glsl"
 
-layout(constant_id = 39) const uint AREA = PROBE_POLYGON;
+layout(constant_id = 39) const uint AREA_PROBE = PROBE_POLYGON;
 
 #include "lib/area/ellipse.glsl"
 #include "lib/area/ellipse_form_factor.glsl"
@@ -54,19 +54,19 @@ void main() {
     vec3 center = rows[i].center;
     vec3 a = rows[i].vertices[0].xyz, b = rows[i].vertices[1].xyz;
     vec4 value = vec4(0.0);
-    if (AREA == PROBE_POLYGON) {
+    if (AREA_PROBE == PROBE_POLYGON) {
         value.x = polygon(i);
     }
-    if (AREA == PROBE_ELLIPSE) {
+    if (AREA_PROBE == PROBE_ELLIPSE) {
         value = vec4(ellipse_form_factor(center, a, b), ellipse_azimuths(ellipse_cone(center, a, b)));
     }
-    if (AREA == PROBE_INTERVAL) {
+    if (AREA_PROBE == PROBE_INTERVAL) {
         EllipseCone cone = ellipse_cone(center, a, b);
         value.xy = ellipse_interval(cone, rows[i].azimuth.xy);
         value.z = ellipse_contains_axis(cone, 1.0) ? 1.0 : 0.0;
         value.w = ellipse_contains_axis(cone, -1.0) ? 1.0 : 0.0;
     }
-    if (AREA == PROBE_LINE) {
+    if (AREA_PROBE == PROBE_LINE) {
         value.x = line_outline(center + a, center + b, rows[i].radius);
     }
     values[i] = value;

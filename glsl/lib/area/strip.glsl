@@ -13,25 +13,28 @@ struct Strip {
     vec3 along;
 };
 
-// An open cylinder from `start` along `axis`, cut where its axis meets the horizon; unseen from inside. Each end is an
-// arc: the strip ends where it has the arc's area, two thirds of the way to the point that is nearest.
+// An open cylinder from `start` along `axis`, cut where it goes below the horizon; unseen from inside. Each end is an
+// arc: the strip ends where it has the arc's area.
 Strip strip_of_line(vec3 start, vec3 axis, float radius) {
     Strip strip;
-    float end_z = start.z + axis.z;
-    float crossing = start.z / (start.z - end_z);
-    vec3 a = start.z < 0.0 ? start + crossing * axis : start;
-    vec3 b = end_z < 0.0 ? start + crossing * axis : start + axis;
+    // Where the axis is a radius below the horizon, the rim may still touch it.
+    float lift = start.z + radius;
+    float end_lift = lift + axis.z;
+    vec3 cut = start + axis * (lift / (lift - end_lift));
+    vec3 a = lift < 0.0 ? cut : start;
+    vec3 b = end_lift < 0.0 ? cut : start + axis;
     float length = sqrt(max(dot(axis, axis), TINY));
     vec3 e = axis / length;
     vec3 out_vector = start - dot(start, e) * e;
     float d = sqrt(dot(out_vector, out_vector));
-    strip.seen = d > radius && max(start.z, end_z) > 0.0;
+    strip.seen = d > radius && max(lift, end_lift) > 0.0;
     vec3 towards = out_vector / max(d, TINY);
     float ratio = min(radius / max(d, TINY), 1.0 - 1e-6);
     float rest = sqrt((1.0 - ratio) * (1.0 + ratio));
     vec3 side = cross(e, towards) * (radius * rest);
-    // √(d² − R²) / (d − R), how much farther along the axis the nearest point appears.
-    float bulge = 1.0 + 2.0 / 3.0 * (sqrt((1.0 + ratio) / (1.0 - ratio)) - 1.0);
+    // On the plane of both tangents the nearest point of a rim appears farther along the axis by 1 + R/d, and the rim
+    // between is nearly an ellipse.
+    float bulge = 1.0 + 0.25 * PI * ratio;
     strip.corner = towards * (d * rest * rest) + side + e * (dot(a, e) * bulge);
     strip.across = -2.0 * side;
     strip.along = (b - a) * bulge;
