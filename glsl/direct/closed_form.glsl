@@ -9,20 +9,17 @@
 float polygon_form_factor(AreaLight light, vec3 origin, mat3 q_from_world, vec3 anchor) {
     FormFactor sum = form_factor_begin(anchor);
     uint end = light.ring_first + light.ring_count;
-    uint i = light.ring_first;
-    while (i < end) {
-        vec4 vertex = area_vertex(i++);
-        vec3 first = q_from_world * (vertex.xyz - origin);
-        vec3 a = first;
-        // A vertex with w = 1 is its ring's last.
-        while (vertex.w == 0.0 && i < end) {
-            vertex = area_vertex(i++);
-            vec3 b = q_from_world * (vertex.xyz - origin);
-            form_factor_edge(sum, a, b);
-            a = b;
-        }
-        form_factor_edge(sum, a, first);
-        form_factor_close_ring(sum);
+    vec3 first = vec3(0.0);
+    bool begins = true;
+    for (uint i = light.ring_first; i < end; ++i) {
+        vec4 vertex = area_vertex(i);
+        vec3 a = q_from_world * (vertex.xyz - origin);
+        if (begins) first = a;
+        // A vertex with w = 1 is its ring's last. One call, not one for the closing edge too: lavapipe compiles each.
+        begins = vertex.w != 0.0;
+        vec3 b = begins ? first : q_from_world * (area_vertex(i + 1u).xyz - origin);
+        form_factor_edge(sum, a, b);
+        if (begins) form_factor_close_ring(sum);
     }
     return abs(form_factor_end(sum));
 }

@@ -61,7 +61,7 @@ void over_outline(inout Estimate sum, Receiver r, Source source, Outline outline
 }
 
 void by_cubature(inout Estimate sum, Receiver r, Source source, vec3 share) {
-    bool coarse = source.size < POINT * r.narrowest;
+    bool coarse = source.size < POINT * r.narrowest && !source_textured(source);
     uint first = coarse ? source.light.coarse_first : source.light.fine_first;
     uint count = coarse ? source.light.coarse_count : source.light.fine_count;
     for (uint i = first; i < first + count; ++i) {
@@ -70,6 +70,7 @@ void by_cubature(inout Estimate sum, Receiver r, Source source, vec3 share) {
         float area;
         area_point(i, position, area, radiance);
         vec3 p = source_point(r.surface, position);
+        if (LINES && source.light.kind == AREA_LINE) area *= line_front(source, p);
         float d2 = max(dot(p, p), TINY);
         vec3 wi = p * inversesqrt(d2);
         float projected = area * source_projection(source, wi) / d2;
@@ -82,22 +83,23 @@ void by_cubature(inout Estimate sum, Receiver r, Source source, vec3 share) {
 
 void over_polygon(inout Estimate sum, Receiver r, Source source, vec3 share) {
     uint end = source.light.piece_first + source.light.piece_count;
-    uint i = source.light.piece_first;
-    while (i < end) {
-        Cone cone = cone_begin();
-        vec4 vertex = area_vertex(i++);
-        vec3 first = source_point(r.surface, vertex.xyz);
-        vec3 a = first;
-        // A vertex with w = 1 is its ring's last.
-        while (vertex.w == 0.0 && i < end) {
-            vertex = area_vertex(i++);
-            vec3 b = source_point(r.surface, vertex.xyz);
-            cone_edge(cone, a, b);
-            a = b;
+    vec3 first = vec3(0.0);
+    bool begins = true;
+    Cone cone;
+    for (uint i = source.light.piece_first; i < end; ++i) {
+        vec4 vertex = area_vertex(i);
+        vec3 a = source_point(r.surface, vertex.xyz);
+        if (begins) {
+            first = a;
+            cone = cone_begin();
         }
-        cone_edge(cone, a, first);
-        cone_close(cone, source.front ? -1.0 : 1.0);
-        if (cone.count > 2u) over_outline(sum, r, source, outline_polygon(cone), share);
+        // A vertex with w = 1 is its piece's last.
+        begins = vertex.w != 0.0;
+        cone_edge(cone, a, begins ? first : source_point(r.surface, area_vertex(i + 1u).xyz));
+        if (begins && cone.count > 2u) {
+            cone_close(cone, source.front ? -1.0 : 1.0);
+            over_outline(sum, r, source, outline_polygon(cone), share);
+        }
     }
 }
 

@@ -44,6 +44,17 @@ bool source_shines(Source source) {
     return source.lit && (source.front || (TWO_SIDED_LIGHTS && source.light.two_sided));
 }
 
+// Moves a point of a line's axis to the middle of what is seen of the cylinder there, and returns how wide that is over
+// the diameter. Right to the first order of the radius over the distance.
+float line_front(Source source, inout vec3 p) {
+    vec3 across = p - source.u * (dot(p, source.u) / max(dot(source.u, source.u), TINY));
+    float ratio = source.light.radius * inversesqrt(max(dot(across, across), TINY));
+    float shift = 0.25 * PI * min(ratio, 1.0);
+    p -= shift * across;
+    // From inside there is nothing to see.
+    return ratio < 1.0 ? 1.0 - shift : 0.0;
+}
+
 bool source_textured(Source source) { return TEXTURED_LIGHTS && source.light.textured; }
 
 // Area as seen from direction wi, per area; of a line, per length.
