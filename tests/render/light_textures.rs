@@ -57,7 +57,7 @@ fn texels_of_any_size_are_found_at_every_level() {
     let scene = Scene { area_lights, textures, ..Scene::default() };
     let device = CheckedGpu::open();
     let lights = AreaLights::new(&scene, Vec3::ZERO).unwrap();
-    let area = Area::new(&device, &lights, vec![]).unwrap();
+    let area = Area::new(&device, &lights, vec![], false).unwrap();
     let rows: Vec<[f32; 4]> = (0..4000)
         .map(|i| {
             let lod = if i % 2 == 0 { 0.0 } else { 14.0 * next() - 1.0 };
