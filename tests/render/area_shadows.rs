@@ -70,7 +70,7 @@ fn slope(errors: &[(f64, f64)]) -> f64 {
 fn shadows_converge_to_the_oracle_s() {
     for (name, floor) in [("matte", MATTE), ("plastic", PLASTIC), ("metal", METAL)] {
         let rest = [floor, OCCLUDER, HIGH, OTHERS];
-        let expected = truth(&rig(1, true, &rest), 64);
+        let expected = truth(&rig(1, true, &rest), 16);
         let mut errors = vec![];
         let mut bias = 0.0;
         for samples in [4, 16, 64, 256] {
@@ -151,10 +151,10 @@ fn masks_let_light_through() {
         [[mesh]]\nshape = \"plane\"\nsize = [0.8, 0.8]\ntranslate = [0.1, 1.5, 0]\nmaterial = \"lace\"\n";
     let text = text(64, true, &[MATTE, sheet, HIGH]);
     let mut rig = Rig::new(scene_with(&text, &[("m.png", &png)]));
-    let expected = truth(&rig, 64);
+    let expected = truth(&rig, 16);
     let [rmse, bias] = differences(&rig.render(), &expected);
     println!("masked: rmse {rmse:.2e}, bias {bias:+.2e}");
-    assert!(rmse < 0.05 && bias.abs() < 1e-2, "rmse {rmse}, bias {bias}");
+    assert!(rmse < 0.15 && bias.abs() < 5e-3, "rmse {rmse}, bias {bias}");
     let solid = text.replace("alpha_mask = \"m.png\"\n", "");
     let mut solid = Rig::new(scene_with(&solid, &[]));
     let expected_solid = truth(&solid, 4);
