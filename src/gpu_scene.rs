@@ -111,12 +111,12 @@ impl GpuScene {
         let set = layout.allocate(shared::scene::SET, 1)?;
         set.get(0).image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
         set.get(0).image(shared::scene::SCENE_LIGHT_NODES, &nodes, Use::Texture);
-        // Where shadows are not asked for, nothing hides anything.
-        let bvh = if scene.render.shadows { Bvh::new(scene, origin) } else { Bvh::default() };
+        // Where shadows are not asked for, or nothing casts any, nothing hides anything.
+        let shadows = scene.render.shadows && !scene.area_lights.is_empty();
+        let bvh = if shadows { Bvh::new(scene, origin) } else { Bvh::default() };
         let occluders = Occluders::new(device, &bvh)?;
         occluders.bind(set.get(0));
-        let area =
-            Area::new(device, &AreaLights::new(scene, origin)?, geometry.luminaires, scene.render.shadows)?;
+        let area = Area::new(device, &AreaLights::new(scene, origin)?, geometry.luminaires, shadows)?;
         area.bind(set.get(0));
         tables.bind(set.get(0));
         let textures = Textures::new(device, scene)?;

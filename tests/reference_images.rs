@@ -1,25 +1,45 @@
-//! The oracle against Mitsuba 3's pictures of `../shared/reference`, where that folder is.
+//! The oracle and the device against Mitsuba 3's pictures of `../shared/reference`, where that folder is.
 #![allow(clippy::unwrap_used, reason = "a test that panics fails")]
 
-use std::path::PathBuf;
+mod common;
 
-use amas::HdrImage;
+use std::path::PathBuf;
+use std::sync::Arc;
+
 use amas::compare::{Figures, Mask, Options as Compare, compare};
 use amas::reference::{Integrator, Options, render};
 use amas::scene::{self, Scene};
+use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage};
+use common::gpu::CheckedGpu;
 
-/// The scene's oracle picture against one of Mitsuba's, and the figures under its mask; `None` without the folder.
+/// The scene's oracle picture against Mitsuba's of light without shadows, see [`figures_of`].
+fn figures(name: &str, tolerance: f64, block: u32, seen_from_behind: bool) -> Option<Figures> {
+    let picture = |scene: &Scene| oracle(scene, &Options { tolerance, ..Options::of_scene(scene) });
+    figures_of([name, "reference.exr"], picture, block, seen_from_behind)
+}
+
+fn oracle(scene: &Scene, options: &Options) -> HdrImage {
+    render(scene, &scene.cameras[0], options).unwrap().image
+}
+
+/// The picture of the program itself.
+fn device(scene: &Scene) -> HdrImage {
+    let device = CheckedGpu::open();
+    let gpu_scene = Arc::new(GpuScene::new(&device, scene).unwrap());
+    let camera = &scene.cameras[0];
+    let mut frame = Frame::new(&device, &gpu_scene, FrameSettings::new(&scene.render, camera)).unwrap();
+    let (samples, progress) = (scene.render.samples, indicatif::ProgressBar::hidden());
+    frame.render(&FrameInputs { camera, samples, exposure: 0.0, split: false, progress }).unwrap();
+    frame.hdr().unwrap()
+}
+
+/// A picture of the scene against one of Mitsuba's, and the figures under its mask; `None` without the folder.
 ///
 /// `seen_from_behind`: pixels where Mitsuba's is exactly black although something is there. Its surfaces are one-sided,
 /// ours turn to the viewer, so the inside of the vase differs by rule; these pixels are left out.
-fn figures(name: &str, tolerance: f64, block: u32, seen_from_behind: bool) -> Option<Figures> {
-    let options = |scene: &Scene| Options { tolerance, ..Options::of_scene(scene) };
-    figures_of([name, "reference.exr"], options, block, seen_from_behind)
-}
-
 fn figures_of(
     [name, picture]: [&str; 2],
-    options: impl Fn(&Scene) -> Options,
+    rendered: impl Fn(&Scene) -> HdrImage,
     block: u32,
     seen_from_behind: bool,
 ) -> Option<Figures> {
@@ -29,7 +49,7 @@ fn figures_of(
         return None;
     }
     let scene = scene::load(&folder.join("scene.toml"), &[]).unwrap();
-    let got = render(&scene, &scene.cameras[0], &options(&scene)).unwrap().image;
+    let got = rendered(&scene);
     let want = HdrImage::load(folder.join(picture)).unwrap();
     let mut mask = Mask::load(folder.join("mask.png")).unwrap();
     if seen_from_behind {
@@ -70,12 +90,34 @@ fn disk_over_mixed_materials() {
 /// The box with visibility; the light is not seen and hides nothing.
 #[test]
 fn shadows_in_a_box() {
-    let options = |scene: &Scene| Options {
-        integrator: Integrator::Shadowed,
-        tolerance: 1e-2,
-        ..Options::of_scene(scene)
+    let picture = |scene: &Scene| {
+        let options = Options::of_scene(scene);
+        oracle(scene, &Options { integrator: Integrator::Shadowed, tolerance: 1e-2, ..options })
     };
-    within_noise(figures_of(["g_cornell", "reference_direct.exr"], options, 8, false), 0.4e-2 / 2.0);
+    within_noise(figures_of(["g_cornell", "reference_direct.exr"], picture, 8, false), 0.4e-2 / 2.0);
+}
+
+#[test]
+fn rectangle_over_metal_on_the_device() {
+    within_promise("a_rect_metal", false);
+}
+
+#[test]
+fn rectangles_over_plastic_on_the_device() {
+    within_promise("b_rect_plastic", false);
+}
+
+#[test]
+fn disk_over_mixed_materials_on_the_device() {
+    within_promise("d_disk_mixed", true);
+}
+
+/// Area lights without shadows in blocks of 8 × 8 pixels: relative bias, and the root of relMSE.
+fn within_promise(name: &str, seen_from_behind: bool) {
+    if let Some(figures) = figures_of([name, "reference.exr"], device, 8, seen_from_behind) {
+        assert!(figures.mean_bias.abs() <= 5e-3, "{figures:#?}");
+        assert!(figures.rel_mse.sqrt() <= 2e-2, "{figures:#?}");
+    }
 }
 
 fn within_noise(figures: Option<Figures>, mean: f64) {

@@ -66,6 +66,16 @@ fn load_scene(options: &SceneOptions) -> Result<Scene> {
     Ok(scene)
 }
 
+/// Says once what shadows the renderer leaves out.
+fn warn_of_missing_shadows(scene: &Scene) {
+    if scene.render.shadows && !scene.point_lights.is_empty() {
+        terminal::complain(
+            "warning: the scene asks for shadows; point lights cast none yet, only area lights do\n  remedy: give \
+             lights that must cast shadows an area; `amas reference --integrator shadowed` has those of points",
+        );
+    }
+}
+
 /// Names the scene's file in what an error says of the scene's content.
 fn in_scene<T>(options: &SceneOptions, result: Result<T>) -> Result<T> {
     result.map_err(|error| match (error, &options.scene) {

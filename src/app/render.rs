@@ -5,7 +5,7 @@ use super::outputs::{
     Kind, check_distinct, check_folder, check_frames, check_linear, check_picture, frame_path, kind,
 };
 use super::report::{self, Report};
-use super::{camera, in_scene, load_scene};
+use super::{camera, in_scene, load_scene, warn_of_missing_shadows};
 use crate::error::{Error, Result};
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, Options};
@@ -48,6 +48,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let device =
         Device::open(&Options { device: options.device.device.clone(), validate: options.device.validate })?;
     let gpu_scene = Arc::new(in_scene(&options.scene, GpuScene::new(&device, &scene))?);
+    warn_of_missing_shadows(&scene);
     let settings = FrameSettings::new(&scene.render, camera);
     let mut frame = Frame::new(&device, &gpu_scene, settings)?;
 

@@ -114,7 +114,6 @@ fn not_supported_yet() {
     };
     let render = |key| SCENE.replace("[render]", &format!("[render]\n{key}"));
     refused(render("indirect = { vpls = 64 }"), "indirect light");
-    refused(render("shadows = true"), "shadows");
     Folder::new().refused(
         &["reference", "scene.toml", "-o", "a.exr", "--integrator", "path"],
         &["path", "not supported yet"],

@@ -145,6 +145,40 @@ fn area_lights() {
     assert_eq!(report["validation_messages"], 0);
 }
 
+/// Point lights cast no shadows yet: a warning, the same picture, and no tree of occluders on the device.
+#[test]
+fn shadows_of_point_lights() {
+    let folder = Folder::new();
+    let sphere = "[[mesh]]\nshape = \"sphere\"\nradius = 0.2\nsegments = [256, 128]\nmaterial = \"floor\"\n";
+    folder.write("scene.toml", format!("{}{sphere}", crate::SCENE));
+    let warnings = |arguments: &[&str]| {
+        let run = folder.run(arguments);
+        assert_eq!(run.status, Some(0), "{run:?}");
+        run.stderr.matches("point lights cast none").count()
+    };
+    let render = |name: &str, key: &[&str]| {
+        let (picture, report) = (format!("{name}.pfm"), format!("{name}.json"));
+        let count = warnings(&[&["render", "scene.toml", "-o", &picture, "--report", &report], key].concat());
+        let device = number(&folder.json(&report)["peak_memory"]["device_mb"]);
+        (count, device, folder.read(&picture))
+    };
+    let without = render("without", &[]);
+    let with = render("with", &["--set", "shadows=true"]);
+    assert_eq!((without.0, with.0), (0, 1));
+    // The sphere's 65,024 triangles alone take 3 MB.
+    assert!((with.1 - without.1).abs() < 0.5, "{} and {} MB", with.1, without.1);
+    assert!(with.2 == without.2);
+    let bench = ["bench", "scene.toml", "--set", "shadows=true", "--frames", "2", "--warmup", "1"];
+    assert_eq!(warnings(&bench), 1);
+    // Area lights do cast them: nothing to warn of.
+    let dark = crate::SCENE.split("[[light]]").next().unwrap();
+    let rect = "[[light]]\ntype = \"rect\"\ncenter = [0, 1, 0]\nu = [0.1, 0, 0]\nv = [0, 0, 0.1]\nradiance = [9, 9, 9]\n";
+    folder.write("scene.toml", format!("{dark}{sphere}{rect}"));
+    let area = render("area", &["--set", "shadows=true"]);
+    assert_eq!(area.0, 0);
+    assert!(area.1 > with.1 + 1.0, "{} and {} MB", area.1, with.1);
+}
+
 /// The validation layers are on, and silent.
 #[test]
 fn validation() {

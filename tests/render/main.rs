@@ -6,6 +6,8 @@
 mod common;
 
 mod area;
+mod area_cells;
+mod area_shadows;
 mod cameras;
 mod clusters;
 mod far;

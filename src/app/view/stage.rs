@@ -1,7 +1,7 @@
 //! The open window: device, scene and frame, and the picture's way into the window.
 
 use crate::app::args::ViewOptions;
-use crate::app::{in_scene, report};
+use crate::app::{in_scene, report, warn_of_missing_shadows};
 use crate::error::{Error, Result};
 use crate::frame::{Frame, FrameInputs, FrameSettings};
 use crate::gpu::{Device, Options, Shown, Swapchain};
@@ -41,14 +41,9 @@ impl Stage {
         let asked = Options { device: options.device.device.clone(), validate: options.device.validate };
         let (device, swapchain) =
             Device::open_for_window(&asked, &window, event_loop.owned_display_handle())?;
-        Ok(Self {
-            frame: None,
-            swapchain,
-            scene: Arc::new(in_scene(&options.scene, GpuScene::new(&device, scene))?),
-            device,
-            window,
-            warned: false,
-        })
+        let gpu_scene = Arc::new(in_scene(&options.scene, GpuScene::new(&device, scene))?);
+        warn_of_missing_shadows(scene);
+        Ok(Self { frame: None, swapchain, scene: gpu_scene, device, window, warned: false })
     }
 
     /// Has the targets made anew before the next picture.
