@@ -171,6 +171,28 @@ shared! {
         PROBE_INTERVAL = 2;
         /// Form factor of the outline of a cylinder.
         PROBE_LINE = 3;
+        /// Specialisation constants of the probe of area lights' estimators: which, `TIER_*`.
+        SPEC_TIER = 40;
+        /// How many points it takes; of `TIER_SHIPPED` the `light_error` in thousandths.
+        SPEC_TIER_POINTS = 41;
+        /// Lights of a row at most.
+        TIER_LIGHTS = 8;
+        /// Loads surface and light only.
+        TIER_NONE = 0;
+        /// The representative point of Karis 2013.
+        TIER_REPRESENTATIVE = 1;
+        /// The points of cubature that come with the light: 4, the coarse ones, or 16, the fine ones.
+        TIER_CUBATURE = 2;
+        /// The closed form of transformed cosines.
+        TIER_CLOSED_FORM = 3;
+        /// Quadrature in the lobe's coordinates: 2, 4 or 8 nodes of azimuth a panel.
+        TIER_QUADRATURE = 4;
+        /// What `glsl/direct/` chooses.
+        TIER_SHIPPED = 5;
+        /// Random points of the light's area.
+        TIER_AREA_SAMPLES = 6;
+        /// Random points in each lobe's coordinates.
+        TIER_PROXY_SAMPLES = 7;
     }
     sets {
         /// Descriptors of a frame: targets and clusters.
@@ -486,6 +508,21 @@ shared! {
             count: uint;
             /// xyz, and 1 for the last of its ring; half axes of the ellipse; ends of the cylinder.
             vertices: vec4[16];
+        }
+        /// A row of the probe of area lights' estimators: a surface with normal +z and tangent +x, and its lights.
+        AreaTierRow {
+            /// Plastic: diffuse; metal: eta; and alpha.
+            color_alpha: vec4;
+            /// Specular, or k; and the index of refraction.
+            specular_eta: vec4;
+            /// Towards the viewer, unit.
+            wo: vec3;
+            /// First of its lights.
+            light_first: uint;
+            /// World.
+            position: vec3;
+            /// How many, at most `TIER_LIGHTS`.
+            light_count: uint;
         }
         /// Pairs of pixel and light in a tile.
         TilePairs {

@@ -55,6 +55,13 @@ Example:
         after_help = "Example:\n  amas bench scenes/light_grid.toml --size 640x360 --frames 20 --json bench.json"
     )]
     Bench(BenchOptions),
+    /// Measure speed against error, and write tables and plots
+    #[command(after_help = "Examples:
+  amas report --out docs/area
+  amas report --quick
+
+Writes area.csv, area.json, area.md, area.svg and area.png. Times mean something on an idle machine only.")]
+    Report(ReportOptions),
     /// List devices, and what each lacks
     #[command(after_help = "Example:\n  amas info --json")]
     Info(InfoOptions),
@@ -230,6 +237,18 @@ pub(super) struct BenchOptions {
     /// Figures as JSON
     #[arg(long, value_name = "FILE")]
     pub(super) json: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(super) struct ReportOptions {
+    /// Existing folder for the files
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub(super) out: PathBuf,
+    /// Few configurations and repetitions: to see that it works
+    #[arg(long)]
+    pub(super) quick: bool,
+    #[command(flatten)]
+    pub(super) device: DeviceOptions,
 }
 
 #[derive(Debug, ClapArgs)]

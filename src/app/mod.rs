@@ -3,6 +3,7 @@
 mod args;
 mod bench;
 mod compare;
+mod curves;
 mod default_scene;
 mod fit;
 mod fit_maps;
@@ -39,6 +40,7 @@ pub fn main() -> ExitCode {
         Command::Compare(options) => compare::run(&options),
         Command::Fit(options) => fit::run(&options),
         Command::Bench(options) => bench::run(&options),
+        Command::Report(options) => curves::run(&options),
         Command::Info(options) => info::run(&options),
     };
     match result {

@@ -26,6 +26,7 @@ fn no_driver() {
         &["render", "scene.toml", "-o", "a.png"][..],
         &["render", "scene.toml", "-o", "a.png", "--validate"],
         &["bench", "scene.toml"],
+        &["report", "--quick"],
         &["info"],
         &["info", "--json"],
         &[],

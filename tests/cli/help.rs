@@ -17,7 +17,7 @@ fn subcommands(folder: &Folder) -> Vec<String> {
 fn every_subcommand_shows_an_example() {
     let folder = Folder::new();
     let names = subcommands(&folder);
-    for needed in ["render", "reference", "compare", "fit", "bench", "info"] {
+    for needed in ["render", "reference", "compare", "fit", "bench", "report", "info"] {
         assert!(names.iter().any(|name| name == needed), "no {needed} in {names:?}");
     }
     for name in names {

@@ -7,6 +7,7 @@ mod bad_outputs;
 mod bad_scenes;
 mod bad_usage;
 mod compare;
+mod curves;
 mod devices;
 mod fit;
 mod help;

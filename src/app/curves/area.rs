@@ -1,0 +1,129 @@
+//! The chapter on area lights: what a light costs a pixel, and how wrong it is, by each way to estimate it.
+
+use super::super::report;
+use super::configurations::{BANDS, DISTRIBUTION, MODELS, SHAPES, configurations, material};
+use super::figures::{FLOOR, Point, complete};
+use super::tiers::{Bench, Family, Pipelines, TIERS};
+use super::{page, plot, progress};
+use crate::error::Result;
+use crate::gpu::{Device, DeviceInfo};
+use crate::gpu_scene::GpuScene;
+use crate::image::write_atomically;
+use crate::scene::Scene;
+use indicatif::ProgressBar;
+use serde::Serialize;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What is written.
+pub(super) const FILES: [&str; 5] = ["area.csv", "area.json", "area.md", "area.svg", "area.png"];
+
+/// How much is measured.
+struct Extent {
+    configurations: usize,
+    repetitions: usize,
+    models: usize,
+    shapes: usize,
+    /// Standard error of the oracle, relative.
+    tolerance: f64,
+}
+
+const FULL: Extent = Extent { configurations: 64, repetitions: 9, models: 2, shapes: 3, tolerance: 2e-4 };
+const QUICK: Extent = Extent { configurations: 12, repetitions: 1, models: 1, shapes: 1, tolerance: 1e-3 };
+
+/// Everything that was measured.
+pub(super) struct Figures {
+    pub(super) points: Vec<Point>,
+    pub(super) extent: String,
+    pub(super) quick: bool,
+}
+
+#[derive(Serialize)]
+struct File<'a> {
+    schema: u32,
+    device: &'a DeviceInfo,
+    /// Version of amas.
+    version: &'static str,
+    /// Commit it was built from; `null` outside a checkout.
+    commit: Option<&'static str>,
+    quick: bool,
+    distribution: &'static str,
+    extent: &'a str,
+    /// Errors are relative to the truth, or to this share of the mean truth of the cell.
+    floor: f64,
+    points: &'a [Point],
+}
+
+pub(super) fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
+    let extent = if quick { QUICK } else { FULL };
+    let models = &MODELS[MODELS.len() - extent.models..];
+    let shapes = &SHAPES[..extent.shapes];
+    let bar = progress(models.len() * shapes.len() * TIERS.len() * (1 + BANDS.len() * extent.repetitions));
+    let mut points = Vec::new();
+    for &(name, model) in models {
+        for &shape in shapes {
+            bar.set_message(format!("{name}, {shape}"));
+            let cells = BANDS.map(|(_, alphas)| {
+                configurations(model, shape, alphas, extent.configurations, extent.tolerance)
+            });
+            let lights = cells.iter().flatten().flat_map(|one| &one.lights).cloned().collect();
+            let scene = Scene { area_lights: lights, materials: vec![material(model)], ..Scene::default() };
+            let scene = GpuScene::new(device, &scene)?;
+            let pipelines = Pipelines::new(device, model, &scene.area.specialization, || bar.inc(1))?;
+            let mut first = 0;
+            for ((band, _), cell) in BANDS.into_iter().zip(&cells) {
+                let bench = Bench::new(device, &scene, &pipelines, cell, first)?;
+                first += cell.iter().map(|one| one.lights.len()).sum::<usize>();
+                let times = times(&bench, extent.repetitions, &bar)?;
+                for (index, tier) in TIERS.iter().enumerate().filter(|(_, tier)| tier.family != Family::None)
+                {
+                    let values = bench.values(index)?;
+                    points.push(Point::new([band, name, shape], tier, &times[index], cell, &values));
+                }
+            }
+        }
+    }
+    bar.finish_and_clear();
+    let extent = format!(
+        "{} surfaces a cell with 8 lights each, {} repetitions, oracle to {:e}",
+        extent.configurations, extent.repetitions, extent.tolerance
+    );
+    Ok(Figures { points: complete(points, BANDS.map(|(band, _)| band)), extent, quick })
+}
+
+/// Nanoseconds of every tier in turn, again and again, less those of the one that does nothing.
+fn times(bench: &Bench<'_>, repetitions: usize, bar: &ProgressBar) -> Result<Vec<Vec<f64>>> {
+    let mut times = vec![Vec::new(); TIERS.len()];
+    // The first run of a pipeline may still compile.
+    (0..TIERS.len()).try_for_each(|tier| bench.time(tier).map(|_| ()))?;
+    for _ in 0..repetitions {
+        let nothing = bench.time(0)?;
+        for (index, times) in times.iter_mut().enumerate() {
+            times.push((bench.time(index)? - nothing).max(0.1));
+            bar.inc(1);
+        }
+    }
+    Ok(times)
+}
+
+/// Writes [`FILES`], each to its path.
+pub(super) fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
+    let [csv, json, markdown, svg, png] = paths;
+    write_atomically(csv, |file| page::csv(file, &figures.points))?;
+    let content = File {
+        schema: 1,
+        device,
+        version: env!("CARGO_PKG_VERSION"),
+        commit: option_env!("AMAS_COMMIT"),
+        quick: figures.quick,
+        distribution: DISTRIBUTION,
+        extent: &figures.extent,
+        floor: FLOOR,
+        points: &figures.points,
+    };
+    report::save(json, &content)?;
+    write_atomically(markdown, |file| file.write_all(page::page(device, figures).as_bytes()))?;
+    plot::svg(svg, &figures.points)?;
+    plot::png(png, &figures.points)
+}

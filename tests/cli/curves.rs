@@ -1,0 +1,57 @@
+//! `amas report`: speed against error. Times are not judged: the machine may be busy.
+
+use crate::Folder;
+
+const FILES: [&str; 6] = ["area.csv", "area.json", "area.md", "area.png", "area.svg", "scene.toml"];
+
+#[test]
+fn area_lights() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--quick", "--validate"]);
+    assert_eq!(folder.names(), FILES);
+    let json = folder.json("area.json");
+    assert_eq!(json["schema"], 1);
+    assert_eq!(json["quick"], true);
+    for key in ["device", "version", "distribution", "floor"] {
+        assert!(!json[key].is_null(), "{key}");
+    }
+    let points = json["points"].as_array().unwrap();
+    let csv = String::from_utf8(folder.read("area.csv")).unwrap();
+    assert_eq!(csv.lines().count(), points.len() + 1);
+    for band in ["sharp", "rough"] {
+        let of = |tier: &str, key: &str| {
+            let point = points.iter().find(|p| p["band"] == band && p["model"] == "all" && p["tier"] == tier);
+            point.and_then(|p| p[key].as_f64()).unwrap_or_else(|| panic!("{band}, {tier}: no {key}"))
+        };
+        // What ships, and what it is made of; then what is known to be worse.
+        for (tier, most) in [
+            ("quadrature 8", 0.003),
+            ("quadrature 4", 0.005),
+            ("amas, error 0", 0.005),
+            ("amas, error .01", 0.01),
+            ("LTC closed form", 0.06),
+            ("cubature 4x4", 0.06),
+            ("area samples 64", 0.12),
+            ("LTC samples 64", 0.12),
+        ] {
+            let error = of(tier, "error");
+            assert!(error > 0.0 && error < most, "{band}, {tier}: {error}");
+        }
+        assert!(of("representative point", "error") > 0.05);
+        // Neither is biased, and the error of both falls as the root of the count.
+        for family in ["area", "LTC"] {
+            let [one, all] = [4, 64].map(|count| format!("{family} samples {count}"));
+            assert!(of(&all, "bias").abs() < 0.03, "{band}, {all}: {}", of(&all, "bias"));
+            let ratio = of(&one, "error") / of(&all, "error");
+            assert!((2.5..6.0).contains(&ratio), "{band}, {family}: {ratio}");
+        }
+        assert!(printed.contains(band), "{printed}");
+    }
+    let png = image::load_from_memory(&folder.read("area.png")).unwrap();
+    assert_eq!((png.width(), png.height()), (1560, 800));
+    let svg = String::from_utf8(folder.read("area.svg")).unwrap();
+    assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+    for text in [svg, String::from_utf8(folder.read("area.md")).unwrap()] {
+        assert!(text.contains("quadrature 4") && text.contains("LTC closed form"), "{text}");
+    }
+}
