@@ -19,6 +19,10 @@ const float POINT = 0.3;
 const float SMALL = 1.0;
 const float LARGE = 1.5;
 const float CUT = 30.0;
+// A line's points lie on its axis: they are right to the first order of its radius only.
+const float THIN = 3.0;
+// From this size on a light is no smaller than its distance, about.
+const float NEAR = 0.7;
 
 bool lambert() { return MODEL == MODEL_PLASTIC || (MODEL == MODEL_MATTE && !ROUGH_MATTE); }
 
@@ -28,16 +32,24 @@ struct Estimate {
     Pick picks[LOBES];
 };
 
+// What is hard takes more nodes: lobes that are stretched or seen at grazing angles, slivers, what is near or cut by the
+// horizon, and textures, whose detail no proxy flattens.
 vec3 lobe_by_quadrature(Receiver r, Source source, Outline outline, Proxy proxy, uint lobe) {
     Seen seen = outline_seen(outline, proxy);
+    bool hardest = ANISOTROPIC || source.thin;
+    bool hard = hardest || r.grazing || source.cut || source.size > NEAR || source_textured(source);
+    if (!outline.elliptic && hard) seen.nodes = hardest ? 12u : 8u;
+    // All around an ellipse the nodes are evenly spaced, as many as wanted.
+    if (outline.elliptic && seen.azimuths.circle && hardest) seen.nodes = 24u;
+    uint radial_nodes = hard ? 4u : 2u;
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < seen.azimuths.panels * seen.nodes; ++k) {
         vec2 azimuth = outline_azimuth(outline, seen, k);
         vec2 e = vec2(cos(azimuth.x), sin(azimuth.x));
         vec2 interval = outline_interval(outline, seen, proxy, e);
         if (!(interval.y > interval.x)) continue;
-        for (uint j = 0u; j < 2u; ++j) {
-            vec2 radial = gauss(2u, j);
+        for (uint j = 0u; j < radial_nodes; ++j) {
+            vec2 radial = gauss(radial_nodes, j);
             Point point = interval_point(proxy, e, interval, radial.x, radial.y * azimuth.y);
             vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
             if (source_textured(source)) f_cos *= source_texture(source, point.wi, point.weight);
@@ -106,13 +118,14 @@ void over_polygon(inout Estimate sum, Receiver r, Source source, vec3 share) {
 vec3 lobe_by_strip(Receiver r, Strip strip, Proxy proxy, uint lobe) {
     StripImage image = strip_image(strip, proxy);
     float width = image.longitudes.y - image.longitudes.x;
-    uint meridians = abs(width) < 0.1 ? 2u : 4u;
+    uint latitudes = ANISOTROPIC ? 12u : 8u;
+    uint meridians = ANISOTROPIC ? 8u : abs(width) < 0.1 ? 2u : 4u;
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < meridians; ++k) {
         vec2 node = gauss(meridians, k);
         Meridian meridian = strip_meridian(image, image.longitudes.x + node.x * width);
-        for (uint j = 0u; j < 8u; ++j) {
-            vec2 along = gauss(8u, j);
+        for (uint j = 0u; j < latitudes; ++j) {
+            vec2 along = gauss(latitudes, j);
             Point point = meridian_point(proxy, image, meridian, along.x, abs(width) * node.y * along.y);
             sum += point.weight * bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
         }
@@ -169,6 +182,7 @@ vec3 area_reflected(Receiver r, uint index) {
     vec3 ratio = source.size / vec3(r.diffuse.width, r.specular.width, r.coat.width);
     // Points count the part above the horizon in sixteenths; the outline is cut there.
     if (source.cut) ratio *= CUT;
+    if (LINES && source.light.kind == AREA_LINE) ratio *= THIN;
     vec3 share = smoothstep(vec3(SMALL), vec3(LARGE), ratio);
     Estimate sum;
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {

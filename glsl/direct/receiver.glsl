@@ -23,6 +23,7 @@ struct Receiver {
     Lobe specular;
     Lobe coat;
     float narrowest;
+    bool grazing;
     vec3 mass;        // albedo of the specular lobe
     float variation;  // and how far its transformed cosine is from it, at most: total variation
     vec3 shadow_origin;
@@ -71,6 +72,7 @@ Receiver receiver_here() {
     BsdfParameters p = surface_parameters();
     r.diffuse = Lobe(proxy_of_cosine(), 1.0);
     r.narrowest = 1.0;
+    r.grazing = wo.z < 0.35;
     if (bsdf_has(LOBE_SPECULAR)) {
         float alpha = ANISOTROPIC ? sqrt(p.alpha_x * p.alpha_y) : p.alpha_x;
         LtcTexel texel = ltc_at(LTC_SPECULAR, sqrt(alpha), cos_o);

@@ -18,6 +18,7 @@ struct Source {
     vec3 normal;
     bool front;
     float size;   // radius over distance
+    bool thin;    // seen at a grazing angle
     bool lit;     // some of it may be above the horizon
     bool cut;     // some of it may be below
 };
@@ -35,6 +36,7 @@ Source source_of(AreaLight light, Surface surface) {
     vec3 middle = source_point(surface, area_middle(light));
     source.front = line || dot(source.normal, source.center) < 0.0;
     source.size = light.extent * inversesqrt(max(dot(middle, middle), TINY));
+    source.thin = !line && abs(dot(source.normal, source.center)) < 0.2 * sqrt(dot(source.center, source.center));
     source.lit = middle.z > -light.extent;
     source.cut = middle.z < light.extent;
     return source;

@@ -180,13 +180,11 @@ fn principled() {
 
 /// Rough and smooth, from straight above down to 6°.
 #[test]
-#[ignore = "near a light whose plane cuts the floor, metal of alpha 0.25 is 2.3 % off in the mean, 37 % in p99"]
 fn angles_of_view() {
     angles(&[0.1, 0.3, 0.6, 1.0]);
 }
 
 #[test]
-#[ignore = "the estimator is up to 2.7 % off in the mean, 9 % in p99, below 2°"]
 fn grazing_view() {
     angles(&[0.03]);
 }
@@ -218,7 +216,6 @@ fn lambertian() {
 }
 
 #[test]
-#[ignore = "the estimator is up to 2.8 % off in the mean, 57 % in p99"]
 fn anisotropic_metal() {
     anisotropic("metal");
 }
@@ -266,7 +263,6 @@ const TURNED_STAR: &str = "type = \"polygon\"\n\
 
 /// Through the floor, on it, and just above it.
 #[test]
-#[ignore = "lines through the surface are up to 1.8 % off in the mean, 23 % in p99; others up to 1.6 % and 7 %"]
 fn lights_at_the_surface() {
     let lights = [
         ("through", "type = \"rect\"\ncenter = [0, 0, -0.55]\nu = [0.6, 0, 0]\nv = [0.1, 0.5, 0.05]\n"),
@@ -289,7 +285,6 @@ fn lights_at_the_surface() {
 
 /// A chequerboard of which a field is a quarter of what the smoothest lobe sees at once, in contrast 50.
 #[test]
-#[ignore = "rectangles and polygons are up to 4.9 % off in the mean on matte and plastic, disks 2.1 %"]
 fn textured() {
     let mut png = Vec::new();
     image::RgbaImage::from_fn(8, 8, |x, y| {
@@ -313,7 +308,6 @@ fn textured() {
 
 /// Small for its distance, and thick for its length.
 #[test]
-#[ignore = "the points of a line leave out the arcs of its ends: 3.9 % off, π/4 of radius over distance"]
 fn thick_and_far_lines() {
     let line = light("type = \"line\"\na = [-0.2, 2, 0]\nb = [0.2, 2, 0]\nradius = 0.1\n", "");
     let mut table = Table::new();

@@ -67,7 +67,7 @@ vec2 outline_azimuth(Outline outline, Seen seen, uint k) {
     if (ELLIPSES && outline.elliptic) {
         // All around, equal steps of a periodic function; else what grows as a root at both ends is smooth in x.
         float x = PI * node.x;
-        node = seen.azimuths.circle ? vec2((float(k) + 0.5) / 12.0, 1.0 / 12.0)
+        node = seen.azimuths.circle ? vec2(float(k) + 0.5, 1.0) / float(seen.nodes)
                                     : vec2(0.5 - 0.5 * cos(x), 0.5 * PI * sin(x) * node.y);
     }
     return vec2(begin + node.x * extent, node.y * extent);
