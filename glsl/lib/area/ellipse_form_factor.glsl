@@ -22,8 +22,15 @@ struct EllipseFrame {
     float l2; // at most l1; 0 edge-on, and then nothing else is meant to be read
 };
 
+// The positive eigenvalue of c cᵀ − x xᵀ, given |c|² − |x|² and |c × x|²: above that of S for any half axis x.
+float ellipse_bound(float trace, float cross2) {
+    float root = sqrt(trace * trace + 4.0 * cross2);
+    return trace > 0.0 ? 0.5 * (trace + root) : 2.0 * cross2 / max(root - trace, LEAST_SQUARE);
+}
+
 // The largest root of x³ − trace x² + minors x − det, which is positive and simple; x is above it. All roots are real, so
-// the steps never pass it. Thin ellipses need five for 1e-6.
+// the steps never pass it. From the least of three bounds: at the rim four steps leave 7e-3 of the form factor in the
+// worst of 20,000, five 1e-5; from the first bound alone five left 2e-1.
 float ellipse_root(float x, float trace, float minors, float det) {
     for (int i = 0; i < 5; i++) {
         float value = ((x - trace) * x + minors) * x - det;
@@ -47,18 +54,18 @@ EllipseFrame ellipse_frame(vec3 c, vec3 a, vec3 b) {
     vec2 foot = vec2(dot(cross(c, b), n), dot(cross(a, c), n)) / max(n2, LEAST_SQUARE);
     float reach = length(foot);
     vec2 turn = reach > 1e-18 ? foot / reach : vec2(1.0, 0.0);
-    vec3 across = turn.x * b - turn.y * a;
-    a = turn.x * a + turn.y * b;
-    b = across;
+    vec3 old_a = a, old_b = b;
+    a = turn.x * old_a + turn.y * old_b;
+    b = turn.x * old_b - turn.y * old_a;
     float det = dot(c, n) * dot(c, n);
     float d2 = det / max(n2, LEAST_SQUARE);
-    float a2 = dot(a, a), b2 = dot(b, b);
-    // The positive eigenvalue of c cᵀ − a aᵀ, above that of S.
-    float trace_ca = dot(c, c) - a2;
-    float root = sqrt(trace_ca * trace_ca + 4.0 * d2 * a2);
-    float start = trace_ca > 0.0 ? 0.5 * (trace_ca + root) : 2.0 * d2 * a2 / max(root - trace_ca, LEAST_SQUARE);
+    float a2 = dot(a, a), b2 = dot(b, b), c2 = dot(c, c);
+    float old_a2 = dot(old_a, old_a), old_b2 = dot(old_b, old_b);
+    float start = ellipse_bound(c2 - a2, d2 * a2);
+    start = min(start, ellipse_bound(c2 - old_a2, foot.y * foot.y * n2 + d2 * old_a2));
+    start = min(start, ellipse_bound(c2 - old_b2, foot.x * foot.x * n2 + d2 * old_b2));
     float minors = n2 * (1.0 - reach) * (1.0 + reach) - d2 * (a2 + b2);
-    float value = ellipse_root(start, trace_ca - b2, minors, det);
+    float value = ellipse_root(start, c2 - a2 - b2, minors, det);
 
     // Its eigenvector: the longest cross product of two rows of S − value.
     vec3 row_x = c.x * c - a.x * a - b.x * b - vec3(value, 0.0, 0.0);
