@@ -93,14 +93,14 @@ impl Cylinder {
 }
 
 fn run(gpu: &CheckedGpu, function: u32, rows: &[AreaProbeRow]) -> Vec<[f32; 4]> {
-    let constants = Specialization::default().with(shared::SPEC_AREA, function);
+    let constants = Specialization::default().with(shared::SPEC_AREA_PROBE, function);
     amas::probe::run(gpu, shaders::PROBE_AREA_COMP, &constants, rows).unwrap()
 }
 
 /// Signed form factor of each outline.
 pub(crate) fn polygons(gpu: &CheckedGpu, outlines: &[Outline]) -> Vec<f64> {
     let rows: Vec<_> = outlines.iter().map(Outline::row).collect();
-    run(gpu, shared::AREA_POLYGON, &rows).into_iter().map(|value| f64::from(value[0])).collect()
+    run(gpu, shared::PROBE_POLYGON, &rows).into_iter().map(|value| f64::from(value[0])).collect()
 }
 
 pub(crate) fn polygon(gpu: &CheckedGpu, outline: &Outline) -> f64 {
@@ -109,13 +109,13 @@ pub(crate) fn polygon(gpu: &CheckedGpu, outline: &Outline) -> f64 {
 
 pub(crate) fn ellipses(gpu: &CheckedGpu, all: &[Ellipse]) -> Vec<f64> {
     let rows: Vec<_> = all.iter().map(Ellipse::row).collect();
-    run(gpu, shared::AREA_ELLIPSE, &rows).into_iter().map(|value| f64::from(value[0])).collect()
+    run(gpu, shared::PROBE_ELLIPSE, &rows).into_iter().map(|value| f64::from(value[0])).collect()
 }
 
 /// Middle of the azimuths that meet an ellipse, and half their range.
 pub(crate) fn azimuths(gpu: &CheckedGpu, all: &[Ellipse]) -> Vec<(DVec2, f64)> {
     let rows: Vec<_> = all.iter().map(Ellipse::row).collect();
-    let values = run(gpu, shared::AREA_ELLIPSE, &rows);
+    let values = run(gpu, shared::PROBE_ELLIPSE, &rows);
     values
         .into_iter()
         .map(|v| (Vec2::new(v[1], v[2]).as_dvec2(), f64::from(v[3])))
@@ -133,7 +133,7 @@ pub(crate) struct Interval {
 pub(crate) fn intervals(gpu: &CheckedGpu, all: &[(Ellipse, Vec2)]) -> Vec<Interval> {
     let row = |(ellipse, e): &(Ellipse, Vec2)| AreaProbeRow { azimuth: e.extend(0.0).to_array(), ..ellipse.row() };
     let rows: Vec<_> = all.iter().map(row).collect();
-    let values = run(gpu, shared::AREA_INTERVAL, &rows);
+    let values = run(gpu, shared::PROBE_INTERVAL, &rows);
     values
         .into_iter()
         .map(|v| Interval {
@@ -146,5 +146,5 @@ pub(crate) fn intervals(gpu: &CheckedGpu, all: &[(Ellipse, Vec2)]) -> Vec<Interv
 
 pub(crate) fn cylinders(gpu: &CheckedGpu, all: &[Cylinder]) -> Vec<f64> {
     let rows: Vec<_> = all.iter().map(Cylinder::row).collect();
-    run(gpu, shared::AREA_LINE, &rows).into_iter().map(|value| f64::from(value[0])).collect()
+    run(gpu, shared::PROBE_LINE, &rows).into_iter().map(|value| f64::from(value[0])).collect()
 }
