@@ -42,7 +42,10 @@ fn azimuths_hold_the_outline() {
         let size = f64::from(ellipse.a.length() + ellipse.b.length());
         let allowed = 1e-6 + 2e-5 * size / near + 1e-6 * f64::from(ellipse.center.length()) / near;
         let error = (half - to).abs().max((half + from).abs());
-        assert!(error <= allowed || near < 0.01 * size, "{ellipse:?}: {half} {from} {to}, {error:e} {allowed:e}");
+        assert!(
+            error <= allowed || near < 0.01 * size,
+            "{ellipse:?}: {half} {from} {to}, {error:e} {allowed:e}"
+        );
         if near > size {
             worst = worst.max(error);
         }
@@ -75,10 +78,14 @@ fn intervals_sum_to_the_form_factor() {
         let mut total = 0.0;
         for i in 1..=STEPS {
             let interval = found[k * STEPS as usize + i as usize - 1];
-            assert!(interval.lower >= -1.0 - 1e-6 && interval.upper <= 1.0 + 1e-6, "{ellipse:?} {interval:?}");
+            assert!(
+                interval.lower >= -1.0 - 1e-6 && interval.upper <= 1.0 + 1e-6,
+                "{ellipse:?} {interval:?}"
+            );
             assert_eq!(interval.contains.iter().any(|&c| c), half >= PI, "{ellipse:?}");
             let t = PI * f64::from(i) / f64::from(STEPS + 1);
-            let weight = if half >= PI { TAU / f64::from(STEPS) } else { half * PI / f64::from(STEPS + 1) * t.sin() };
+            let weight =
+                if half >= PI { TAU / f64::from(STEPS) } else { half * PI / f64::from(STEPS + 1) * t.sin() };
             let [lower, upper] = [interval.lower, interval.upper].map(|cosine| cosine.max(0.0));
             if upper > lower {
                 total += weight * (upper - lower) * (upper + lower) / TAU;

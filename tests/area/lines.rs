@@ -24,7 +24,7 @@ fn random_cylinder(random: &mut Random, low: f64, high: f64) -> Cylinder {
 fn thin_lines() {
     let gpu = CheckedGpu::open();
     let line = |half: f32, radius| Cylinder { a: vec3(-half, 0.0, 1.0), b: vec3(half, 0.0, 1.0), radius };
-    // The closed forms are limits of no radius, from which a cylinder differs in order (radius/height)².
+    // The closed forms are limits of no radius, from which a cylinder differs by .3 of radius over height.
     for (what, cylinder, want) in [
         ("T9 length 2", line(1.0, 0.01), 0.008_183_099),
         ("T9 long", line(1e4, 0.01), 0.01),
@@ -33,7 +33,7 @@ fn thin_lines() {
         let got = cylinders(&gpu, &[cylinder])[0];
         println!("{what}: {got:.9}, want {want:.9}");
         let ratio = f64::from(cylinder.radius);
-        assert!((got / want - 1.0).abs() < 1e-3 + ratio * ratio, "{what}: {got}, want {want}");
+        assert!((got / want - 1.0).abs() < 1e-5 + 0.35 * ratio, "{what}: {got}, want {want}");
     }
     gpu.finish();
 }
@@ -44,8 +44,7 @@ fn cylinders_of_any_radius() {
     for (low, high, worst_allowed, mean_allowed) in
         [(0.0, 0.1, 5e-5, 3e-6), (0.1, 0.3, 1e-3, 5e-5), (0.3, 0.6, 5e-3, 3e-4), (0.6, 0.9, 1.5e-2, 1e-3)]
     {
-        let all: Vec<_> =
-            (0..150).map(|i| random_cylinder(&mut Random::new(i), low, high)).collect();
+        let all: Vec<_> = (0..150).map(|i| random_cylinder(&mut Random::new(i), low, high)).collect();
         let (mut worst, mut sum, mut total): (f64, f64, f64) = (0.0, 0.0, 0.0);
         for (cylinder, got) in all.iter().zip(cylinders(&gpu, &all)) {
             let want = truth::cylinder(cylinder);
@@ -54,7 +53,9 @@ fn cylinders_of_any_radius() {
             total += want;
         }
         let (mean, relative) = (sum / all.len() as f64, sum / total);
-        println!("radius {low}–{high} of the distance: worst {worst:.1e}, mean {mean:.1e}, relative {relative:.1e}");
+        println!(
+            "radius {low}–{high} of the distance: worst {worst:.1e}, mean {mean:.1e}, relative {relative:.1e}"
+        );
         assert!(worst < worst_allowed && mean < mean_allowed, "{worst:e} {mean:e}");
     }
     gpu.finish();

@@ -18,10 +18,6 @@ impl Outline {
         Self { center: Vec3::ZERO, rings: vec![vertices.iter().map(|&v| v.into()).collect()] }
     }
 
-    pub(crate) fn at(center: [f32; 3], vertices: &[[f32; 3]]) -> Self {
-        Self { center: center.into(), ..Self::ring(vertices) }
-    }
-
     /// As the device knows it, in double precision.
     pub(crate) fn exact(&self) -> Vec<Vec<DVec3>> {
         let place = |&v: &Vec3| self.center.as_dvec3() + v.as_dvec3();
@@ -115,11 +111,16 @@ pub(crate) fn ellipses(gpu: &CheckedGpu, all: &[Ellipse]) -> Vec<f64> {
 /// Middle of the azimuths that meet an ellipse, and half their range.
 pub(crate) fn azimuths(gpu: &CheckedGpu, all: &[Ellipse]) -> Vec<(DVec2, f64)> {
     let rows: Vec<_> = all.iter().map(Ellipse::row).collect();
+<<<<<<< HEAD
     let values = run(gpu, shared::PROBE_ELLIPSE, &rows);
     values
         .into_iter()
         .map(|v| (Vec2::new(v[1], v[2]).as_dvec2(), f64::from(v[3])))
         .collect()
+=======
+    let values = run(gpu, shared::PROBE_ELLIPSE, &rows);
+    values.into_iter().map(|v| (Vec2::new(v[1], v[2]).as_dvec2(), f64::from(v[3]))).collect()
+>>>>>>> h-geo
 }
 
 /// An ellipse at one azimuth.
@@ -131,7 +132,8 @@ pub(crate) struct Interval {
 }
 
 pub(crate) fn intervals(gpu: &CheckedGpu, all: &[(Ellipse, Vec2)]) -> Vec<Interval> {
-    let row = |(ellipse, e): &(Ellipse, Vec2)| AreaProbeRow { azimuth: e.extend(0.0).to_array(), ..ellipse.row() };
+    let row =
+        |(ellipse, e): &(Ellipse, Vec2)| AreaProbeRow { azimuth: e.extend(0.0).to_array(), ..ellipse.row() };
     let rows: Vec<_> = all.iter().map(row).collect();
     let values = run(gpu, shared::PROBE_INTERVAL, &rows);
     values

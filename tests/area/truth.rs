@@ -49,7 +49,11 @@ impl Random {
 }
 
 pub(crate) fn outline(outline: &Outline) -> f64 {
-    outline.exact().iter().map(|ring| lambert(&above(ring))).sum()
+    outline.exact().iter().map(|exact| ring(exact)).sum()
+}
+
+pub(crate) fn ring(ring: &[DVec3]) -> f64 {
+    lambert(&above(ring))
 }
 
 /// Sutherland and Hodgman's clip to z ≥ 0.

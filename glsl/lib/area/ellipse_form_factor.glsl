@@ -45,11 +45,14 @@ float ellipse_root(float x, float trace, float minors, float det) {
 EllipseFrame ellipse_frame(vec3 c, vec3 a, vec3 b) {
     vec3 size = max(max(abs(c), abs(a)), abs(b));
     float scale = 1.0 / max(max(size.x, max(size.y, size.z)), LEAST_SQUARE);
+    // Before scaling, which would round an edge-on ellipse out of its plane.
+    vec3 n = cross(a, b);
+    float volume = dot(c, n) * scale * scale * scale;
+    n *= scale * scale;
     c *= scale;
     a *= scale;
     b *= scale;
     // Conjugate half axes of which the first points at the foot of the origin: c = reach a + d n/|n|.
-    vec3 n = cross(a, b);
     float n2 = dot(n, n);
     vec2 foot = vec2(dot(cross(c, b), n), dot(cross(a, c), n)) / max(n2, LEAST_SQUARE);
     float reach = length(foot);
@@ -57,7 +60,7 @@ EllipseFrame ellipse_frame(vec3 c, vec3 a, vec3 b) {
     vec3 old_a = a, old_b = b;
     a = turn.x * old_a + turn.y * old_b;
     b = turn.x * old_b - turn.y * old_a;
-    float det = dot(c, n) * dot(c, n);
+    float det = volume * volume;
     float d2 = det / max(n2, LEAST_SQUARE);
     float a2 = dot(a, a), b2 = dot(b, b), c2 = dot(c, c);
     float old_a2 = dot(old_a, old_a), old_b2 = dot(old_b, old_b);

@@ -30,7 +30,7 @@ struct FormFactor {
 };
 
 // Where vertices of a light within `radius` of `center` are to be taken relative to: its center when it is small, or
-// the origin. From a ratio of 1/4 on the edge sum alone is exact to 1e-6 of its value.
+// the origin. Relative errors of 100,000 squares from 1e-5 to 3 rad, at cosines from .02 on: 1.5e-4 at worst.
 vec3 form_factor_anchor(vec3 center, float radius) {
     return 16.0 * radius * radius < dot(center, center) ? center : vec3(0.0);
 }

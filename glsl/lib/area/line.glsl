@@ -17,50 +17,47 @@ const uint LINE_VERTICES = 8u;
 
 struct Line {
     bool visible;
-    vec3 start;
-    vec3 end;
-    // Offsets from the axis are out ± side, of the tangent points and of those between.
-    vec3 tangent_out;
-    vec3 tangent_side;
-    vec3 inner_out;
-    vec3 inner_side;
+    vec3 axis;
+    vec3 side;
+    vec3 away;      // from the origin to the axis
+    float start;    // along the axis, from the foot of the origin
+    float end;
+    vec2 tangent;   // of a tangent point: from the origin's plane of axis and side, and along side
+    vec2 inner;     // of a point between
 };
 
 Line line_setup(vec3 a, vec3 b, float radius) {
     Line line;
-    line.start = a;
-    line.end = b;
-    vec3 axis = (b - a) * inversesqrt(max(dot(b - a, b - a), LEAST_SQUARE));
+    line.axis = (b - a) * inversesqrt(max(dot(b - a, b - a), LEAST_SQUARE));
+    line.start = dot(a, line.axis);
+    line.end = dot(b, line.axis);
     // From the nearer end, which loses the fewest digits.
-    vec3 from_axis = cross(axis, cross(axis, dot(a, a) < dot(b, b) ? a : b));
-    float axis2 = dot(from_axis, from_axis);
-    float inverse_distance = inversesqrt(max(axis2, LEAST_SQUARE));
-    float d = axis2 * inverse_distance;
+    vec3 to_axis = cross(line.axis, cross(dot(a, a) < dot(b, b) ? a : b, line.axis));
+    float d2 = dot(to_axis, to_axis);
+    float inverse_d = inversesqrt(max(d2, LEAST_SQUARE));
+    float d = d2 * inverse_d;
     line.visible = d > radius && radius > 0.0 && a != b;
-    vec3 out_ = from_axis * inverse_distance;
-    vec3 side = cross(axis, out_);
-    float cosine = min(radius * inverse_distance, 1.0);
-    float sine = sqrt(max((d - radius) * (d + radius), 0.0)) * inverse_distance;
-    float third = angle_of(sine, cosine) / 3.0;
-    vec2 inner = cos_sin(third);
+    line.away = to_axis * inverse_d;
+    line.side = cross(line.away, line.axis);
+    float cosine = min(radius * inverse_d, 1.0);
+    float sine = sqrt(max((d - radius) * (d + radius), 0.0)) * inverse_d;
+    line.tangent = vec2(max(d - radius, 0.0) * (1.0 + cosine), radius * sine);
     // Of a segment of angle 3 third on either side, the trapezoid's area: scale²/2 + scale = 3 third / sin(2 third).
-    float sine_of_two = 2.0 * inner.x * inner.y;
-    float scale = sqrt(1.0 + 6.0 * max(third, LEAST_SQUARE) / max(sine_of_two, 2.0 * LEAST_SQUARE)) - 1.0;
-    line.tangent_out = radius * cosine * out_;
-    line.tangent_side = radius * sine * side;
-    line.inner_out = radius * scale * inner.x * out_;
-    line.inner_side = radius * scale * inner.y * side;
+    float third = max(angle_of(sine, cosine) / 3.0, LEAST_SQUARE);
+    vec2 turn = cos_sin(third);
+    float scale = sqrt(1.0 + 3.0 * third / (turn.x * max(turn.y, LEAST_SQUARE))) - 1.0;
+    line.inner = vec2(max(d - radius, 0.0) + radius * max(1.0 - scale * turn.x, 0.0), radius * scale * turn.y);
     return line;
 }
 
-// Vertex i of LINE_VERTICES, counter-clockwise as the origin sees the light: 0–3 the rim at a, 4–7 that at b.
+// Vertex i of LINE_VERTICES, counter-clockwise as the origin sees the light: 0–3 the rim at a, 4–7 that at b. A point
+// closer to the surface than float32 tells at the ends is as far as it does: directions move by less than 1e-6.
 vec3 line_vertex(Line line, uint i) {
     bool at_end = i >= 4u;
     uint k = at_end ? 7u - i : i;
-    bool tangent = k == 0u || k == 3u;
-    vec3 side = tangent ? line.tangent_side : line.inner_side;
-    vec3 outward = tangent ? line.tangent_out : line.inner_out;
-    return (at_end ? line.end : line.start) + (outward + (k < 2u ? -side : side));
+    float along = at_end ? line.end : line.start;
+    vec2 across = k == 0u || k == 3u ? line.tangent : line.inner;
+    return along * line.axis + max(across.x, 1e-6 * abs(along)) * line.away + (k < 2u ? -across.y : across.y) * line.side;
 }
 
 #endif
