@@ -111,16 +111,8 @@ pub(crate) fn ellipses(gpu: &CheckedGpu, all: &[Ellipse]) -> Vec<f64> {
 /// Middle of the azimuths that meet an ellipse, and half their range.
 pub(crate) fn azimuths(gpu: &CheckedGpu, all: &[Ellipse]) -> Vec<(DVec2, f64)> {
     let rows: Vec<_> = all.iter().map(Ellipse::row).collect();
-<<<<<<< HEAD
-    let values = run(gpu, shared::PROBE_ELLIPSE, &rows);
-    values
-        .into_iter()
-        .map(|v| (Vec2::new(v[1], v[2]).as_dvec2(), f64::from(v[3])))
-        .collect()
-=======
     let values = run(gpu, shared::PROBE_ELLIPSE, &rows);
     values.into_iter().map(|v| (Vec2::new(v[1], v[2]).as_dvec2(), f64::from(v[3]))).collect()
->>>>>>> h-geo
 }
 
 /// An ellipse at one azimuth.
