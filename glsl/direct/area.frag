@@ -25,7 +25,11 @@ void main() {
         uint cluster = cluster_at(ivec2(gl_FragCoord.xy));
         uint end = (draw.lights.y + 31u) >> 5;
         for (uint word = draw.lights.x >> 5; word < end; ++word) {
-            for (uint mask = area_mask(cluster, word).x; mask != 0u; mask &= mask - 1u) {
+            // Of the words at both ends, the lights of this draw.
+            uint first = word == draw.lights.x >> 5 ? draw.lights.x & 31u : 0u;
+            uint last = min(draw.lights.y - (word << 5), 32u) - 1u;
+            uint mine = (0xffffffffu << first) & (0xffffffffu >> (31u - last));
+            for (uint mask = area_mask(cluster, word).x & mine; mask != 0u; mask &= mask - 1u) {
                 sum += area_reflected(receiver, (word << 5) + uint(findLSB(mask)));
             }
         }

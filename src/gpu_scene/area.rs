@@ -7,6 +7,17 @@ use crate::gpu::{DescriptorSet, Device, Format, Image, ImageDescription, Use};
 use crate::shared::{self, AREA_HEIGHT_LOG2, AREA_KIND_BITS, AREA_WIDTH_LOG2, AreaRecord};
 use std::sync::Arc;
 
+/// lavapipe ends a shader's loops, without a word, after 65,535 iterations in all, and a GPU's watchdog draws that last
+/// seconds.
+const MAX_ITERATIONS: u32 = 60_000;
+
+/// Iterations that a light may take of a pixel: three lobes; of each vertex of its pieces, and one more where the horizon
+/// cuts, twelve azimuths; of each, up to nine planes and four points. A shadow is a ray and its candidates a lobe.
+fn iterations(record: &AreaRecord, shadows: bool) -> u32 {
+    let quadrature = 3 * (record.piece_count.max(4) * 5 / 4) * 12 * (9 + 4 + 1);
+    quadrature + if shadows { 3 * 500 } else { 0 }
+}
+
 /// How a light that is seen is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Luminaire {
@@ -22,6 +33,8 @@ pub struct Area {
     pub count: u32,
     /// Specialisation constants of what evaluates them.
     pub specialization: Vec<(u32, u32)>,
+    /// How many a draw may take.
+    pub per_draw: u32,
     /// Those that are seen: variants by [`Luminaire`], materials are lights.
     pub luminaires: Vec<Draw>,
     texels: Image,
@@ -70,7 +83,9 @@ impl Area {
                 u32::from(lights.records.iter().any(flag(shared::AREA_TWO_SIDED))),
             ),
         ];
-        Ok(Self { count: lights.records.len() as u32, specialization, luminaires, texels: image })
+        let worst = lights.records.iter().map(|record| iterations(record, shadows)).max();
+        let per_draw = (MAX_ITERATIONS / worst.unwrap_or(1)).max(1);
+        Ok(Self { count: lights.records.len() as u32, per_draw, specialization, luminaires, texels: image })
     }
 
     /// Puts them into the scene's set.

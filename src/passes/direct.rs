@@ -16,8 +16,6 @@ use std::ops::Range;
 /// Lights of one draw; the draws of a surface add up. lavapipe ends a shader's loops, without a word, after 65,535
 /// iterations, and a GPU's watchdog ends draws that last seconds.
 const LIGHTS_PER_DRAW: u32 = 1 << 15;
-/// The same of area lights, of which each takes up to some hundred iterations. A multiple of a word of masks.
-const AREA_LIGHTS_PER_DRAW: u32 = 128;
 
 /// Pipelines of the subpass; absent where the scene has no use for them.
 pub struct Direct {
@@ -89,7 +87,7 @@ impl Direct {
             }
         };
         if let Some(area) = &self.area {
-            draw(area, 0..self.work.area, AREA_LIGHTS_PER_DRAW);
+            draw(area, 0..self.work.area, view.scene.area.per_draw);
         }
         if let Some(unranged) = &self.unranged {
             draw(unranged, self.work.first_unranged..count, LIGHTS_PER_DRAW);
