@@ -21,6 +21,7 @@
 //! | [`mod@reference`] | the oracle in double precision, without Vulkan |
 //! | [`ltc`] | area lights by linearly transformed cosines: tables, and their fitter |
 //! | [`gpu`] | thin safe layer over `ash`, the only module with `unsafe` |
+//! | [`hilbert`] | the order of points along a Hilbert curve |
 //! | [`light_tree`] | lights in Hilbert order, and the tree over them |
 //! | [`area_lights`] | area lights as texels: outlines, convex pieces, cubature, textures |
 //! | [`bvh`] | a tree over what hides lights: triangles, masks, luminaires |
@@ -45,6 +46,7 @@ pub mod frame;
 #[allow(unsafe_code, reason = "the one layer that calls Vulkan")]
 pub mod gpu;
 pub mod gpu_scene;
+pub mod hilbert;
 pub mod image;
 pub mod light_tree;
 pub mod ltc;

@@ -5,17 +5,15 @@
 //! 3. Nodes lie in depth-first order, each with the index of the node that follows where it is missed: a walk needs
 //!    no stack.
 
+use crate::hilbert;
 use crate::scene::PointLight;
 use crate::shared::{LEAF_COUNT_BITS, LEAF_LIGHTS, LightNode};
 use glam::Vec3;
-use rayon::prelude::*;
 
 /// Lights of a leaf.
 const LEAF: usize = LEAF_LIGHTS as usize;
 /// Children of an inner node.
 const FAN: usize = 8;
-/// Bits per axis of the Hilbert curve.
-const BITS: u32 = 10;
 
 /// Lights in device order, and their tree.
 #[derive(Clone, Debug, Default)]
@@ -44,44 +42,9 @@ impl LightTree {
     }
 }
 
-fn sort_along_curve(lights: &mut [PointLight]) {
-    let lower = lights.iter().fold(Vec3::INFINITY, |least, light| least.min(light.position));
-    let upper = lights.iter().fold(Vec3::NEG_INFINITY, |most, light| most.max(light.position));
-    let extent = (upper - lower).max_element().max(f32::MIN_POSITIVE);
-    // Stable: equal keys keep file order, so the result does not depend on the number of threads.
-    lights.par_sort_by_cached_key(|light| hilbert_key((light.position - lower) / extent));
-}
-
-/// Position along the Hilbert curve of a point in the unit cube (Skilling 2004, transposed form).
-fn hilbert_key(p: Vec3) -> u32 {
-    let scale = ((1_u32 << BITS) - 1) as f32;
-    let mut axes = (p * scale).to_array().map(|v| v as u32);
-    let mut q = 1 << (BITS - 1);
-    while q > 1 {
-        let mask = q - 1;
-        for i in 0..3 {
-            if axes[i] & q != 0 {
-                axes[0] ^= mask;
-            } else {
-                let t = (axes[0] ^ axes[i]) & mask;
-                axes[0] ^= t;
-                axes[i] ^= t;
-            }
-        }
-        q >>= 1;
-    }
-    axes[1] ^= axes[0];
-    axes[2] ^= axes[1];
-    let mut t = 0;
-    let mut q = 1 << (BITS - 1);
-    while q > 1 {
-        if axes[2] & q != 0 {
-            t ^= q - 1;
-        }
-        q >>= 1;
-    }
-    let axes = axes.map(|axis| axis ^ t);
-    (0..BITS).rev().fold(0, |key, bit| axes.iter().fold(key, |key, axis| key << 1 | (axis >> bit & 1)))
+fn sort_along_curve(lights: &mut Vec<PointLight>) {
+    let order = hilbert::order(lights.iter().map(|light| light.position));
+    *lights = order.into_iter().map(|index| lights[index as usize]).collect();
 }
 
 fn build(lights: &[PointLight]) -> Vec<LightNode> {
@@ -158,20 +121,6 @@ mod tests {
                 }
             }
             assert_eq!(seen, vec![1; count]);
-        }
-    }
-
-    #[test]
-    fn neighbours_on_the_curve_are_neighbours_in_space() {
-        let mut cells = vec![Vec3::ZERO; 512];
-        for i in 0..512_u32 {
-            let p = Vec3::new((i & 7) as f32, (i >> 3 & 7) as f32, (i >> 6) as f32);
-            // The cell's corner on the grid of 2¹⁰: the top three bits of each axis.
-            let key = hilbert_key((p * 128.0 + 0.5) / 1023.0) >> 21;
-            cells[key as usize] = p;
-        }
-        for pair in cells.windows(2) {
-            assert!((pair[0] - pair[1]).abs().element_sum() == 1.0, "{pair:?}");
         }
     }
 
