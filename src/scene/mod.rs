@@ -14,6 +14,7 @@ pub mod luminaire;
 pub mod material;
 pub mod mesh;
 pub mod mips;
+pub mod motion;
 mod mtl;
 mod obj;
 mod obj_scan;
@@ -34,6 +35,7 @@ pub use load::{load, load_embedded};
 pub use luminaire::Luminaire;
 pub use material::{Material, Model, Parameter};
 pub use mesh::{Mesh, Vertex};
+pub use motion::Motion;
 pub use settings::RenderSettings;
 pub use texture::{Texels, Texture};
 
@@ -50,10 +52,24 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Triangles in world space, one material a mesh.
     pub meshes: Vec<Mesh>,
-    /// Point lights, in file order.
+    /// Point lights, in file order, where they are at time 0.
     pub point_lights: Vec<PointLight>,
+    /// Groups of them that move.
+    pub motions: Vec<Motion>,
     /// Area lights, in file order.
     pub area_lights: Vec<AreaLight>,
     /// What loading noticed and repaired, as sentences for the user.
     pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// The point lights at time `t`, in seconds; only by their positions do they differ from those of time 0.
+    #[must_use]
+    pub fn point_lights_at(&self, t: f64) -> Vec<PointLight> {
+        let mut lights = self.point_lights.clone();
+        for motion in &self.motions {
+            motion.apply(t, &mut lights[motion.lights.clone()]);
+        }
+        lights
+    }
 }

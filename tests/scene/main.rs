@@ -10,6 +10,7 @@ mod lights;
 mod materials;
 mod meshes;
 mod models;
+mod motion;
 mod obj;
 mod textures;
 

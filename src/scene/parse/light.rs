@@ -3,8 +3,9 @@
 //! Where the contract is silent: `visible = true` on a point light is an error, since a point has no surface
 //! to be seen; a generator's `seed` defaults to 1 and lies within 32 bits.
 
-use super::{Table, Value, area};
+use super::{Table, Value, area, motion};
 use crate::error::{Error, Result};
+use crate::scene::Motion;
 use crate::scene::light::PointLight;
 use crate::scene::load::Loader;
 use crate::scene::points::{self, Generator};
@@ -18,11 +19,8 @@ pub(in crate::scene) fn lights(loader: &mut Loader, root: &Table) -> Result<()> 
     for table in root.tables("light")? {
         let kind = table.require("type", "\"point\"")?;
         match kind.string()? {
-            "point" => loader.scene.point_lights.push(point(&table)?),
-            "points" => {
-                let lights = many(loader, &table)?;
-                loader.scene.point_lights.extend(lights);
-            }
+            "point" => group(loader, &table, vec![point(&table)?])?,
+            "points" => group(loader, &table, many(loader, &table)?)?,
             shape @ ("polygon" | "rect" | "disk" | "line") => {
                 let light = area::light(loader, &table, shape)?;
                 loader.scene.area_lights.push(light);
@@ -46,8 +44,20 @@ pub(in crate::scene) fn lights(loader: &mut Loader, root: &Table) -> Result<()> 
     Ok(())
 }
 
+/// Adds point lights that belong together, and how they move.
+fn group(loader: &mut Loader, table: &Table, lights: Vec<PointLight>) -> Result<()> {
+    let scene = &mut loader.scene;
+    let first = scene.point_lights.len();
+    if let Some(animate) = table.get("animate") {
+        let course = motion::course(&animate, &lights)?;
+        scene.motions.push(Motion { lights: first..first + lights.len(), course });
+    }
+    scene.point_lights.extend(lights);
+    Ok(())
+}
+
 fn point(table: &Table) -> Result<PointLight> {
-    table.allow(&["type", "position", "intensity", "range", "visible"])?;
+    table.allow(&["type", "position", "intensity", "range", "visible", "animate"])?;
     refuse_visible(table)?;
     Ok(PointLight {
         position: table.require("position", "[0.0, 2.0, 0.0]")?.vec3()?.as_vec3(),
@@ -69,7 +79,7 @@ fn range(table: &Table) -> Result<Option<f32>> {
 }
 
 fn many(loader: &Loader, table: &Table) -> Result<Vec<PointLight>> {
-    table.allow(&["type", "file", "generate", "visible"])?;
+    table.allow(&["type", "file", "generate", "visible", "animate"])?;
     refuse_visible(table)?;
     match (table.get("file"), table.get("generate")) {
         (Some(file), None) => from_file(loader, &file),

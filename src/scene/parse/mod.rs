@@ -9,6 +9,7 @@ pub(super) mod camera;
 pub(super) mod light;
 pub(super) mod material;
 pub(super) mod mesh;
+mod motion;
 pub(super) mod render;
 mod value;
 
