@@ -193,6 +193,16 @@ shared! {
         TIER_AREA_SAMPLES = 6;
         /// Random points in each lobe's coordinates.
         TIER_PROXY_SAMPLES = 7;
+        /// Specialisation constant of the loops that measure the device's floors: `FLOOR_*`.
+        SPEC_FLOOR = 42;
+        /// No loop: to be subtracted.
+        FLOOR_NOTHING = 0;
+        /// Lights made up, not fetched.
+        FLOOR_ARITHMETIC = 1;
+        /// Lights fetched and added up.
+        FLOOR_FETCH = 2;
+        /// Lights fetched and reflected.
+        FLOOR_BOTH = 3;
     }
     sets {
         /// Descriptors of a frame: targets and clusters.

@@ -234,6 +234,9 @@ pub(super) struct BenchOptions {
     /// Frames rendered first and not measured
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub(super) warmup: u32,
+    /// Also measure what a pair of pixel and light costs at least: its arithmetic alone, its fetches alone
+    #[arg(long)]
+    pub(super) floors: bool,
     /// Figures as JSON
     #[arg(long, value_name = "FILE")]
     pub(super) json: Option<PathBuf>,

@@ -10,6 +10,7 @@ use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo, Options};
 use crate::gpu_scene::GpuScene;
+use crate::passes::floors::Floors;
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::io::IsTerminal;
@@ -39,6 +40,8 @@ struct Point {
     passes: Vec<Pass>,
     clusters: Clusters,
     pairs: Pairs,
+    /// Nanoseconds a pair at least; `null` unless they were asked for and the scene has lights in lists.
+    floors_ns: Option<Floors>,
 }
 
 pub(super) fn run(options: &BenchOptions) -> Result<()> {
@@ -88,6 +91,10 @@ fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) ->
     report::print_table(&format!("{name}, {width}x{height}, {}", device.info().name), &passes, &whole)?;
     let pairs = report::pairs(frame.pairs()?, &passes, device.info(), &scene.render);
     print(&pairs)?;
+    let floors_ns = if options.floors { frame.floors()? } else { None };
+    if let Some(floors) = &floors_ns {
+        print(floors)?;
+    }
     Ok(Point {
         scene: name,
         size: settings.size,
@@ -96,6 +103,7 @@ fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) ->
         clusters: report::clusters(&frame),
         pairs,
         passes,
+        floors_ns,
     })
 }
 

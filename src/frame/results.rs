@@ -7,6 +7,7 @@ use crate::image::HdrImage;
 use crate::passes::PassInputs;
 use crate::passes::aov::{Aov, Quantity};
 use crate::passes::cluster::ClusterTargets;
+use crate::passes::floors::{FloorPass, Floors};
 use crate::passes::pairs::{PairCount, PairPass};
 use crate::shared::Counters;
 use crate::targets::Targets;
@@ -68,6 +69,19 @@ impl Frame {
             self.set.get(0),
             tiles_of(self.settings.size),
         )
+    }
+
+    /// What a pair of pixel and light costs at least on this device, over the lists of the picture last rendered; `None`
+    /// where it had none.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn floors(&self) -> Result<Option<Floors>> {
+        if self.cluster.is_none() {
+            return Ok(None);
+        }
+        let pass = FloorPass::new(&self.device, tiles(self.settings.size))?;
+        pass.measure(&self.scene, self.set.get(0), tiles_of(self.settings.size))
     }
 
     /// What the cluster pass counted for the last sample; zero where the scene has no lights with a range.

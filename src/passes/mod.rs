@@ -6,6 +6,7 @@
 pub mod aov;
 pub mod cluster;
 pub mod direct;
+pub mod floors;
 pub mod forward;
 pub mod indirect;
 mod luminaires;

@@ -191,7 +191,7 @@ fn validation() {
 #[test]
 fn bench() {
     let folder = Folder::new();
-    let words = ["--frames", "3", "--warmup", "1", "--json", "b.json"];
+    let words = ["--frames", "3", "--warmup", "1", "--floors", "--json", "b.json"];
     let table = folder.done(&[&["bench", "scene.toml", "scene.toml"], &words[..]].concat());
     let json = folder.json("b.json");
     assert_eq!(json["schema"], 1);
@@ -210,7 +210,11 @@ fn bench() {
         assert!(n.is_none_or(|n| n >= 3));
         clusters(&point["clusters"]);
         pairs(&point["pairs"]);
+        let floors = point["floors_ns"].as_object().unwrap();
+        let keys = ["lambert_arithmetic", "plastic_arithmetic", "fetch", "lambert", "plastic"];
+        assert!(keys.iter().all(|key| number(&floors[*key]) >= 0.0), "{point}");
     }
+    assert_eq!(table.matches("floors, ns a pair").count(), 2, "{table}");
     for name in PASSES {
         assert!(table.contains(&format!("\n{name} ")), "{table}");
     }
