@@ -133,6 +133,12 @@ shared! {
         AOV_LIGHT_COUNT = 3;
         /// One for every fragment that is shaded.
         AOV_COVERAGE = 4;
+        /// Number of the cluster.
+        AOV_CLUSTER = 5;
+        /// Depth slice.
+        AOV_SLICE = 6;
+        /// Lights of the list over those within range.
+        AOV_PAIR_RATIO = 7;
         /// Table of the specular lobe of area lights.
         SPEC_LTC_SPECULAR = 12;
         /// Table of the clear coat.

@@ -14,7 +14,21 @@
 layout(constant_id = 11) const uint AOV = AOV_POSITION;
 layout(location = 0) out vec4 value;
 
+// Lights of the pixel's list: over those within range, all, within range.
+vec3 pair_ratio(ivec2 pixel) {
+    LightList list = list_at(pixel);
+    vec3 position = surface_position();
+    uint within = 0u;
+    for (uint i = 0u; i < list.count; ++i) {
+        vec4 place = light_place(list_indices(list.texel + i / 4u)[i & 3u]);
+        vec3 d = place.xyz - position;
+        within += uint(dot(d, d) * place.w < 1.0);
+    }
+    return vec3(within == 0u ? 1.0 : float(list.count) / float(within), float(list.count), float(within));
+}
+
 void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
     if (AOV == AOV_POSITION) {
         value = vec4(surface_position(), 1.0);
     } else if (AOV == AOV_NORMAL) {
@@ -23,8 +37,14 @@ void main() {
         value = vec4(vec3(float(draw.material)), 1.0);
     } else if (AOV == AOV_LIGHT_COUNT) {
         uint unranged = frame.light_count - frame.direct_begin;
-        ivec2 pixel = ivec2(gl_FragCoord.xy);
         value = vec4(vec3(float(list_at(pixel).count + unranged + area_count(pixel))), 1.0);
+    } else if (AOV == AOV_CLUSTER) {
+        uint id = cluster_at(pixel);
+        value = vec4(vec3(id == NO_CLUSTER ? -1.0 : float(id)), 1.0);
+    } else if (AOV == AOV_SLICE) {
+        value = vec4(vec3(float(slice_of(frame, view_depth(frame, gl_FragCoord.z)))), 1.0);
+    } else if (AOV == AOV_PAIR_RATIO) {
+        value = vec4(pair_ratio(pixel), 1.0);
     } else {
         value = vec4(1.0);
     }

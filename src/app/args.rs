@@ -121,9 +121,10 @@ pub(super) struct RenderOptions {
     /// Report as JSON; its pairs.area_saved counts what the clusters' masks spared of area lights
     #[arg(long, value_name = "FILE.json")]
     pub(super) report: Option<PathBuf>,
-    /// Output variable, several times: position, normal, material (-1: a light that is seen), light_count, direct or
-    /// indirect
-    #[arg(long, value_name = "NAME=FILE.exr", value_parser = parse_pair)]
+    /// Output variable, several times: position, normal, material (-1: a light that is seen), light_count, cluster,
+    /// slice, pair_ratio (lights evaluated over those within range), direct or indirect; numbers in .exr or .pfm,
+    /// colours in .png
+    #[arg(long, value_name = "NAME=FILE", value_parser = parse_pair)]
     pub(super) aov: Vec<(String, String)>,
 }
 

@@ -1,10 +1,12 @@
 //! The subcommands: the only module that knows the command line, the environment and file names.
 
+mod aovs;
 mod args;
 mod bench;
 mod compare;
 mod curves;
 mod default_scene;
+mod false_color;
 mod fit;
 mod fit_maps;
 mod info;

@@ -25,6 +25,12 @@ pub enum Quantity {
     Material = shared::AOV_MATERIAL,
     /// Lights evaluated.
     LightCount = shared::AOV_LIGHT_COUNT,
+    /// Number of the cluster; −1 without.
+    Cluster = shared::AOV_CLUSTER,
+    /// Depth slice.
+    Slice = shared::AOV_SLICE,
+    /// Lights of the list that are evaluated, over those within range; then both. 1 where no light is within range.
+    PairRatio = shared::AOV_PAIR_RATIO,
     /// How often the pixel is shaded.
     Coverage = shared::AOV_COVERAGE,
 }

@@ -25,7 +25,7 @@ fn names_and_folders() {
     };
     render(&["--report", "none/r.json"], &["none/r.json", "no folder"]);
     render(&["--aov", "normal=none/n.exr"], &["none/n.exr", "no folder"]);
-    render(&["--aov", "normal=n.png"], &["n.png", ".exr or .pfm"]);
+    render(&["--aov", "position=n.png"], &["n.png", ".exr or .pfm"]);
     folder.refused(&["bench", "scene.toml", "--json", "none/b.json"], &["none/b.json", "no folder"]);
     folder.refused(&["report", "--out", "none"], &["none/area.csv", "no folder none"]);
     folder.refused(&["report", "--out", "scene.toml"], &["no folder scene.toml"]);
