@@ -42,6 +42,8 @@ pub struct Frame {
     counters: Counters,
     timestamps: Timestamps,
     pass_names: Vec<&'static str>,
+    /// Time that the moving lights are at.
+    time: Option<f64>,
     samples: u32,
     slices: u32,
     draws: Vec<VisibleDraw>,
@@ -73,6 +75,7 @@ impl Frame {
             counters: Counters::default(),
             timestamps: Timestamps::new(device, pass_names.len() as u32 + 1)?,
             pass_names,
+            time: None,
             samples: 0,
             slices: 0,
             draws: Vec::new(),
@@ -91,13 +94,26 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn render(&mut self, inputs: &FrameInputs<'_>) -> Result<Timings> {
+        let lights = self.move_lights(inputs.time)?;
         // A frame that needs more room for clusters than any before it is rendered again: no picture lacks light
         // because a buffer was too small.
         loop {
             if let Some(timings) = self.accumulate(inputs)? {
-                return Ok(timings);
+                return Ok(timings.after(lights));
             }
         }
+    }
+
+    /// Moves the lights that move, unless they are there already; what that took.
+    fn move_lights(&mut self, time: f64) -> Result<Option<Timings>> {
+        if !self.scene.moves() {
+            return Ok(None);
+        }
+        let watch = Stopwatch::start(&[]);
+        if self.time.replace(time) != Some(time) {
+            self.scene.move_lights(time)?;
+        }
+        Ok(Some(watch.stop()))
     }
 
     /// Adds up the samples; `None` if clusters or lists did not fit, and now have room.

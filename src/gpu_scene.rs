@@ -3,6 +3,7 @@
 mod area;
 mod coincident;
 mod geometry;
+mod lights;
 pub mod occluders;
 mod tables;
 mod textures;
@@ -11,17 +12,15 @@ use crate::area_lights::AreaLights;
 use crate::bvh::Bvh;
 use crate::draws::{Draw, is_closed};
 use crate::error::{Error, Result};
-use crate::gpu::{
-    Buffer, BufferUse, Cull, DescriptorSets, Device, Format, Image, ImageDescription, PipelineLayout,
-    Specialization, Use,
-};
+use crate::gpu::{Buffer, BufferUse, Cull, DescriptorSets, Device, PipelineLayout, Specialization};
 use crate::light_tree::LightTree;
 use crate::scene::material::PARAMETER_COUNT;
-use crate::scene::{Luminaire as Surface, Material, Model, Parameter, PointLight, Scene, Vertex};
-use crate::shared::{self, LightNode, MaterialRecord};
+use crate::scene::{Luminaire as Surface, Material, Model, Parameter, Scene, Vertex};
+use crate::shared::{self, MaterialRecord};
 pub use area::{Area, Luminaire};
 use geometry::{Geometry, bounds, origin};
 use glam::Vec3;
+use lights::{LightImages, placed};
 use occluders::Occluders;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -61,7 +60,7 @@ pub struct GpuScene {
     pub draws: Vec<Draw>,
     /// Distinct variants, sorted.
     pub variants: Vec<Variant>,
-    /// Point lights in device order.
+    /// Point lights in device order, at time 0.
     pub lights: LightTree,
     /// Area lights.
     pub area: Area,
@@ -72,12 +71,13 @@ pub struct GpuScene {
     pub bounds: Option<[glam::DVec3; 2]>,
     /// Layout that every pipeline of the frame shares.
     pub layout: Arc<PipelineLayout>,
+    /// Nothing but the point lights and how they move; `None` where none does.
+    moving: Option<Scene>,
+    light_images: LightImages,
     // What the sets refer to.
     _tables: Tables,
     _textures: Textures,
     _records: Buffer<MaterialRecord>,
-    _nodes: Image,
-    _light_image: Image,
     _occluders: Occluders,
 }
 
@@ -98,19 +98,12 @@ impl GpuScene {
         let seen: Vec<Option<Surface>> = seen.collect();
         let origin = origin(scene, &seen);
         let geometry = Geometry::new(scene, &of_mesh, &seen, origin);
-        let lights: Vec<_> = scene
-            .point_lights
-            .iter()
-            .map(|&light| PointLight { position: light.position - origin, ..light })
-            .collect();
-        let lights = LightTree::new(&lights);
-        let light_image = light_image(device, &lights.lights)?;
-        let nodes = node_image(device, &lights.nodes)?;
+        let lights = placed(scene, 0.0, origin);
+        let light_images = LightImages::new(device, &lights)?;
         let records: Vec<_> = scene.materials.iter().map(record).collect();
         let records = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
         let set = layout.allocate(shared::scene::SET, 1)?;
-        set.get(0).image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
-        set.get(0).image(shared::scene::SCENE_LIGHT_NODES, &nodes, Use::Texture);
+        light_images.bind(set.get(0));
         // Where shadows are not asked for, or nothing casts any, nothing hides anything.
         let shadows = scene.render.shadows && !scene.area_lights.is_empty();
         let bvh = if shadows { Bvh::new(scene, origin) } else { Bvh::default() };
@@ -139,10 +132,24 @@ impl GpuScene {
             _tables: tables,
             _textures: textures,
             _records: records,
-            _nodes: nodes,
-            _light_image: light_image,
+            moving: lights::moving(scene),
+            light_images,
             _occluders: occluders,
         })
+    }
+
+    /// Whether lights move.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.moving.is_some()
+    }
+
+    /// Moves the lights that move to where they are at time `t`, seconds.
+    ///
+    /// # Errors
+    /// [`Error::Vulkan`] from the driver.
+    pub fn move_lights(&self, t: f64) -> Result<()> {
+        self.moving.as_ref().map_or(Ok(()), |scene| self.light_images.upload(&placed(scene, t, self.origin)))
     }
 }
 
@@ -244,60 +251,4 @@ fn record(material: &Material) -> MaterialRecord {
         row[..3].copy_from_slice(&value.constant);
     }
     record
-}
-
-/// Lights as two RGBA32F texels each, with the null light behind them: the padding of the lists.
-fn light_image(device: &Arc<Device>, lights: &[PointLight]) -> Result<Image> {
-    let null = PointLight { position: glam::Vec3::ZERO, intensity: glam::Vec3::ZERO, range: None };
-    let row = shared::LIGHTS_PER_ROW as usize;
-    let rows = (lights.len() + 1).div_ceil(row);
-    let layer_rows = 1 << shared::LIGHT_ROWS_LOG2;
-    let layers = rows.div_ceil(layer_rows);
-    let height = if layers > 1 { layer_rows } else { rows };
-    let mut texels: Vec<[f32; 4]> = lights.iter().chain([&null]).flat_map(light_texels).collect();
-    texels.resize(layers * height * row * 2, [0.0; 4]);
-    let image = Image::new(
-        device,
-        &ImageDescription {
-            name: "lights",
-            format: Format::R32G32B32A32_SFLOAT,
-            size: [2 * shared::LIGHTS_PER_ROW, height as u32],
-            layers: Some(layers as u32),
-            mips: 1,
-            uses: &[Use::TransferWrite, Use::Texture],
-        },
-    )?;
-    image.upload(&[&texels], Use::Texture)?;
-    Ok(image)
-}
-
-/// The tree as two RGBA32UI texels a node.
-fn node_image(device: &Arc<Device>, nodes: &[LightNode]) -> Result<Image> {
-    let row = 1 << shared::NODES_PER_ROW_LOG2;
-    let rows = nodes.len().div_ceil(row).max(1);
-    let mut texels = nodes.to_vec();
-    texels.resize(rows * row, LightNode::default());
-    let image = Image::new(
-        device,
-        &ImageDescription {
-            name: "light tree",
-            format: Format::R32G32B32A32_UINT,
-            size: [2 * row as u32, rows as u32],
-            layers: None,
-            mips: 1,
-            uses: &[Use::TransferWrite, Use::Texture],
-        },
-    )?;
-    image.upload(&[&texels], Use::Texture)?;
-    Ok(image)
-}
-
-fn light_texels(light: &PointLight) -> [[f32; 4]; 2] {
-    let (inverse_range2, floor) = match light.range {
-        // The square of the smallest ranges is 0.
-        Some(range) => ((1.0 / (range * range)).min(f32::MAX), 1e-4),
-        None => (0.0, 1e-12),
-    };
-    let (p, i) = (light.position, light.intensity);
-    [[p.x, p.y, p.z, inverse_range2], [i.x, i.y, i.z, floor]]
 }

@@ -29,7 +29,7 @@ fn device(scene: &Scene) -> HdrImage {
     let camera = &scene.cameras[0];
     let mut frame = Frame::new(&device, &gpu_scene, FrameSettings::new(&scene.render, camera)).unwrap();
     let (samples, progress) = (scene.render.samples, indicatif::ProgressBar::hidden());
-    frame.render(&FrameInputs { camera, samples, exposure: 0.0, split: false, progress }).unwrap();
+    frame.render(&FrameInputs { camera, time: 0.0, samples, exposure: 0.0, split: false, progress }).unwrap();
     frame.hdr().unwrap()
 }
 

@@ -77,6 +77,7 @@ pub(super) struct Source<'a> {
     pub(super) gpu_scene: &'a Arc<GpuScene>,
     pub(super) scene: &'a Scene,
     pub(super) camera: &'a Camera,
+    pub(super) time: f64,
 }
 
 impl Source<'_> {
@@ -121,6 +122,7 @@ impl Source<'_> {
     fn inputs(&self, samples: u32) -> FrameInputs<'_> {
         FrameInputs {
             camera: self.camera,
+            time: self.time,
             samples,
             exposure: 0.0,
             split: false,

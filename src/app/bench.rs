@@ -5,7 +5,7 @@ use super::measure::Figure;
 use super::outputs::{check_distinct, check_folder};
 use super::report::{self, Clusters, Pairs, Pass};
 use super::terminal::print;
-use super::{camera, in_scene, load_scene, warn_of_missing_shadows};
+use super::{FRAME_RATE, camera, in_scene, load_scene, warn_of_missing_shadows};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo, Options};
@@ -79,6 +79,7 @@ fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) ->
     let mut frame = Frame::new(device, &gpu_scene, settings)?;
     let inputs = FrameInputs {
         camera,
+        time: 0.0,
         samples: scene.render.samples,
         exposure: scene.render.exposure,
         split: false,
@@ -116,11 +117,15 @@ fn measure(
     let total = options.warmup + options.frames + SPLIT_FRAMES;
     let bar =
         if std::io::stderr().is_terminal() { ProgressBar::new(total.into()) } else { ProgressBar::hidden() };
+    let mut index = 0;
     let mut render = |count: u32, split: bool| -> Result<Vec<Timings>> {
         (0..count)
             .map(|_| {
                 bar.inc(1);
-                frame.render(&FrameInputs { split, ..inputs.clone() })
+                index += 1;
+                // Lights that move do so from frame to frame; the camera stands.
+                let time = f64::from(index) / FRAME_RATE;
+                frame.render(&FrameInputs { split, time, ..inputs.clone() })
             })
             .collect()
     };

@@ -25,6 +25,9 @@ use args::{Args, Command, SceneOptions};
 use clap::Parser;
 use std::process::ExitCode;
 
+/// Frames a second along a camera's path, and of lights that move.
+const FRAME_RATE: f64 = 30.0;
+
 /// Parses the command line and runs it; errors go to stderr.
 #[must_use]
 pub fn main() -> ExitCode {

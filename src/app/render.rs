@@ -4,7 +4,7 @@ use super::aovs::{AovOutput, Source};
 use super::args::RenderOptions;
 use super::outputs::{Kind, check_distinct, check_folder, check_frames, check_picture, frame_path, kind};
 use super::report::{self, Report};
-use super::{camera, in_scene, load_scene, warn_of_missing_shadows};
+use super::{FRAME_RATE, camera, in_scene, load_scene, warn_of_missing_shadows};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, Options};
@@ -14,9 +14,6 @@ use indicatif::ProgressBar;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Frames a second along a camera's path.
-const FRAME_RATE: f64 = 30.0;
 
 pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let mut outputs = options.output.clone();
@@ -38,19 +35,18 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let bar = progress(frames.len() as u64 * u64::from(scene.render.samples));
     let mut timings = Vec::new();
     for index in frames {
-        let placed = match options.frames {
-            Some(_) => camera.at(f64::from(index) / FRAME_RATE),
-            None => camera.clone(),
-        };
+        let time = f64::from(index) / FRAME_RATE;
+        let placed = if options.frames.is_some() { camera.at(time) } else { camera.clone() };
         let inputs = FrameInputs {
             camera: &placed,
+            time,
             samples: scene.render.samples,
             exposure: scene.render.exposure,
             split: options.report.is_some(),
             progress: bar.clone(),
         };
         timings.push(picture(&mut frame, &inputs, settings.size, (&outputs, index))?);
-        let source = Source { device: &device, gpu_scene: &gpu_scene, scene: &scene, camera: &placed };
+        let source = Source { device: &device, gpu_scene: &gpu_scene, scene: &scene, camera: &placed, time };
         source.save(&mut frame, &aovs, index)?;
     }
     bar.finish_and_clear();

@@ -45,6 +45,8 @@ impl FrameSettings {
 pub struct FrameInputs<'a> {
     /// Camera, of the kind that the frame was made for.
     pub camera: &'a Camera,
+    /// Seconds, where lights move.
+    pub time: f64,
     /// Samples a pixel; 1 goes through its centre.
     pub samples: u32,
     /// Exposure in EV, for the display-referred picture.

@@ -25,6 +25,19 @@ pub struct Timings {
     pub cpu_ms: f64,
 }
 
+impl Timings {
+    /// With what happened before on the host: the moving of the lights.
+    pub(super) fn after(mut self, lights: Option<Self>) -> Self {
+        if let Some(lights) = lights {
+            let pass = PassTime { name: "lights", gpu_ms: None, cpu_ms: Some(lights.cpu_ms) };
+            self.passes.insert(0, pass);
+            self.wall_ms += lights.wall_ms;
+            self.cpu_ms += lights.cpu_ms;
+        }
+        self
+    }
+}
+
 /// Measures a frame.
 pub(super) struct Stopwatch {
     wall: Instant,

@@ -188,6 +188,7 @@ fn passes_are_those_that_the_lights_need() {
     let names = |rig: &mut Rig| {
         let inputs = amas::FrameInputs {
             camera: &rig.scene.cameras[0],
+            time: 0.0,
             samples: 1,
             exposure: 0.0,
             split: true,

@@ -101,7 +101,9 @@ impl Table {
         let mut frame = Frame::new(&self.device, &gpu_scene, settings).unwrap();
         let progress = indicatif::ProgressBar::hidden();
         let camera = &scene.cameras[0];
-        frame.render(&FrameInputs { camera, samples: 1, exposure: 0.0, split: false, progress }).unwrap();
+        frame
+            .render(&FrameInputs { camera, time: 0.0, samples: 1, exposure: 0.0, split: false, progress })
+            .unwrap();
         frame.hdr().unwrap()
     }
 

@@ -14,6 +14,7 @@ mod far;
 mod light_textures;
 mod lists;
 mod luminaires;
+mod motion;
 mod oracle;
 mod support;
 mod surfaces;

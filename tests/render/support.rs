@@ -3,7 +3,7 @@
 use amas::passes::aov::Quantity;
 use amas::reference::{self, Options};
 use amas::scene::load_embedded;
-use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage, Scene};
+use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage, Scene, Timings};
 use std::sync::Arc;
 
 use crate::common::gpu::CheckedGpu;
@@ -42,17 +42,32 @@ impl Rig {
     }
 
     pub(crate) fn render(&mut self) -> HdrImage {
+        self.render_at(0.0)
+    }
+
+    /// The picture at a time, in seconds, where lights move.
+    pub(crate) fn render_at(&mut self, time: f64) -> HdrImage {
+        self.timed(time);
+        let image = self.frame.hdr().unwrap();
+        assert_eq!(image.non_finite_count(), 0, "every value is finite");
+        image
+    }
+
+    /// Names of the passes.
+    pub(crate) fn passes(&mut self) -> Vec<&'static str> {
+        self.timed(0.0).passes.iter().map(|pass| pass.name).collect()
+    }
+
+    fn timed(&mut self, time: f64) -> Timings {
         let inputs = FrameInputs {
             camera: &self.scene.cameras[0],
+            time,
             samples: self.scene.render.samples,
             exposure: 0.0,
             split: false,
             progress: indicatif::ProgressBar::hidden(),
         };
-        self.frame.render(&inputs).unwrap();
-        let image = self.frame.hdr().unwrap();
-        assert_eq!(image.non_finite_count(), 0, "every value is finite");
-        image
+        self.frame.render(&inputs).unwrap()
     }
 
     pub(crate) fn aov(&self, quantity: Quantity) -> Vec<[f32; 4]> {

@@ -37,6 +37,7 @@ fn open(options: &ViewOptions, scene: &Scene, fly: Fly) -> Result<()> {
         scene,
         fly,
         stage: None,
+        start: Instant::now(),
         pointer: None,
         dragging: false,
         remaining: options.frames,
@@ -96,6 +97,7 @@ struct Viewer<'a> {
     options: &'a ViewOptions,
     scene: &'a Scene,
     fly: Fly,
+    start: Instant,
     stage: Option<Stage>,
     /// Where the pointer was last, in pixels.
     pointer: Option<[f64; 2]>,
@@ -116,10 +118,12 @@ impl Viewer<'_> {
         let Some(stage) = &mut self.stage else {
             return Ok(());
         };
-        let moves = self.fly.step(Instant::now());
+        let now = Instant::now();
+        let moves = self.fly.step(now) || !self.scene.motions.is_empty();
+        let time = (now - self.start).as_secs_f64();
         let samples = if moves { 1 } else { self.scene.render.samples };
         // Without an area nothing moves, until the window has a size again.
-        let Some(shown) = stage.draw(self.scene, self.fly.camera(), samples)? else {
+        let Some(shown) = stage.draw(self.scene, self.fly.camera(), time, samples)? else {
             return Ok(());
         };
         let on_screen = matches!(shown, Shown::Yes | Shown::Misfit);

@@ -52,7 +52,13 @@ impl Stage {
     }
 
     /// Renders a picture and shows it; `None` where the window has no area.
-    pub(super) fn draw(&mut self, scene: &Scene, camera: &Camera, samples: u32) -> Result<Option<Shown>> {
+    pub(super) fn draw(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        time: f64,
+        samples: u32,
+    ) -> Result<Option<Shown>> {
         if self.frame.is_none() {
             self.frame = self.make_frame(scene, camera)?;
         }
@@ -61,6 +67,7 @@ impl Stage {
         };
         frame.render(&FrameInputs {
             camera,
+            time,
             samples,
             exposure: scene.render.exposure,
             split: false,

@@ -1,0 +1,102 @@
+//! Point lights on the device: their texels and tree, and how both follow lights that move.
+
+use crate::error::Result;
+use crate::gpu::{DescriptorSet, Device, Format, Image, ImageDescription, Use};
+use crate::light_tree::LightTree;
+use crate::scene::{PointLight, Scene};
+use crate::shared::{self, LightNode};
+use glam::Vec3;
+use std::sync::Arc;
+
+/// The images that hold lights and tree.
+pub(super) struct LightImages {
+    lights: Image,
+    nodes: Image,
+}
+
+impl LightImages {
+    /// Makes the images and uploads the lights.
+    pub(super) fn new(device: &Arc<Device>, tree: &LightTree) -> Result<Self> {
+        let image = |name, format, size, layers| {
+            let uses = &[Use::TransferWrite, Use::Texture];
+            Image::new(device, &ImageDescription { name, format, size, layers, mips: 1, uses })
+        };
+        let [width, height, layers] = light_extent(tree.lights.len());
+        let node_rows = tree.nodes.len().div_ceil(1 << shared::NODES_PER_ROW_LOG2).max(1) as u32;
+        let images = Self {
+            lights: image("lights", Format::R32G32B32A32_SFLOAT, [width, height], Some(layers))?,
+            nodes: image(
+                "light tree",
+                Format::R32G32B32A32_UINT,
+                [2 << shared::NODES_PER_ROW_LOG2, node_rows],
+                None,
+            )?,
+        };
+        images.upload(tree)?;
+        Ok(images)
+    }
+
+    /// Uploads lights, as many as the images were made for.
+    pub(super) fn upload(&self, tree: &LightTree) -> Result<()> {
+        self.lights.upload(&[&light_texels(&tree.lights)], Use::Texture)?;
+        self.nodes.upload(&[&node_texels(&tree.nodes)], Use::Texture)
+    }
+
+    pub(super) fn bind(&self, set: DescriptorSet<'_>) {
+        set.image(shared::scene::SCENE_LIGHTS, &self.lights, Use::Texture);
+        set.image(shared::scene::SCENE_LIGHT_NODES, &self.nodes, Use::Texture);
+    }
+}
+
+/// A scene with nothing but its point lights and their motions; `None` where none moves.
+pub(super) fn moving(scene: &Scene) -> Option<Scene> {
+    let lights = || Scene {
+        point_lights: scene.point_lights.clone(),
+        motions: scene.motions.clone(),
+        ..Scene::default()
+    };
+    (!scene.motions.is_empty()).then(lights)
+}
+
+/// A scene's point lights at a time, seconds, about the device's origin.
+pub(super) fn placed(scene: &Scene, t: f64, origin: Vec3) -> LightTree {
+    let mut lights = scene.point_lights_at(t);
+    lights.iter_mut().for_each(|light| light.position -= origin);
+    LightTree::new(&lights)
+}
+
+/// Texels across, rows, layers of the image of so many lights and the null light behind them.
+fn light_extent(lights: usize) -> [u32; 3] {
+    let rows = (lights as u32 + 1).div_ceil(shared::LIGHTS_PER_ROW);
+    let layers = rows.div_ceil(1 << shared::LIGHT_ROWS_LOG2);
+    let height = if layers > 1 { 1 << shared::LIGHT_ROWS_LOG2 } else { rows };
+    [2 * shared::LIGHTS_PER_ROW, height, layers]
+}
+
+/// Lights as two RGBA32F texels each, with the null light behind them: the padding of the lists.
+fn light_texels(lights: &[PointLight]) -> Vec<[f32; 4]> {
+    let null = PointLight { position: Vec3::ZERO, intensity: Vec3::ZERO, range: None };
+    let size: u32 = light_extent(lights.len()).iter().product();
+    let mut texels = Vec::with_capacity(size as usize);
+    texels.extend(lights.iter().chain([&null]).flat_map(texels_of));
+    texels.resize(size as usize, [0.0; 4]);
+    texels
+}
+
+fn texels_of(light: &PointLight) -> [[f32; 4]; 2] {
+    let (inverse_range2, floor) = match light.range {
+        // The square of the smallest ranges is 0.
+        Some(range) => ((1.0 / (range * range)).min(f32::MAX), 1e-4),
+        None => (0.0, 1e-12),
+    };
+    let (p, i) = (light.position, light.intensity);
+    [[p.x, p.y, p.z, inverse_range2], [i.x, i.y, i.z, floor]]
+}
+
+/// The tree as two RGBA32UI texels a node, whole rows.
+fn node_texels(nodes: &[LightNode]) -> Vec<LightNode> {
+    let row = 1 << shared::NODES_PER_ROW_LOG2;
+    let mut texels = nodes.to_vec();
+    texels.resize(nodes.len().div_ceil(row).max(1) * row, LightNode::default());
+    texels
+}
