@@ -30,21 +30,26 @@ impl LightTree {
     /// Orders the lights and builds the tree.
     #[must_use]
     pub fn new(lights: &[PointLight]) -> Self {
-        let (mut ordered, unranged): (Vec<_>, Vec<_>) =
-            lights.iter().partition(|light| light.range.is_some());
-        sort_along_curve(&mut ordered);
+        let mut ordered = Vec::with_capacity(lights.len());
+        append_along_curve(lights, true, &mut ordered);
         let ranged = ordered.len();
         let nodes = build(&ordered);
-        let mut unranged = unranged;
-        sort_along_curve(&mut unranged);
-        ordered.append(&mut unranged);
+        append_along_curve(lights, false, &mut ordered);
         Self { lights: ordered, ranged, nodes }
     }
 }
 
-fn sort_along_curve(lights: &mut Vec<PointLight>) {
-    let order = hilbert::order(lights.iter().map(|light| light.position));
-    *lights = order.into_iter().map(|index| lights[index as usize]).collect();
+/// Appends those lights that have a range, or those that have none, in their curve's order.
+fn append_along_curve(lights: &[PointLight], ranged: bool, ordered: &mut Vec<PointLight>) {
+    let of_kind = |light: &PointLight| light.range.is_some() == ranged;
+    let count = lights.iter().filter(|light| of_kind(light)).count();
+    if count == lights.len() {
+        let order = hilbert::order(lights.iter().map(|light| light.position));
+        ordered.extend(order.into_iter().map(|index| lights[index as usize]));
+    } else if count > 0 {
+        let kind: Vec<_> = lights.iter().copied().filter(of_kind).collect();
+        append_along_curve(&kind, ranged, ordered);
+    }
 }
 
 fn build(lights: &[PointLight]) -> Vec<LightNode> {
@@ -59,27 +64,35 @@ fn build(lights: &[PointLight]) -> Vec<LightNode> {
     nodes
 }
 
-/// Appends the subtree over `lights`, the first of which has index `first`.
-fn emit(lights: &[PointLight], first: usize, span: usize, nodes: &mut Vec<LightNode>) {
-    let (lower, upper) = bounds(lights);
+/// Appends the subtree over `lights`, the first of which has index `first`; its box.
+fn emit(lights: &[PointLight], first: usize, span: usize, nodes: &mut Vec<LightNode>) -> [Vec3; 2] {
     let index = nodes.len();
-    let leaf = span == LEAF;
-    let packed = if leaf { (first << LEAF_COUNT_BITS | lights.len()) as u32 } else { 0 };
-    nodes.push(LightNode { lower: lower.to_array(), skip: 0, upper: upper.to_array(), lights: packed });
-    if !leaf {
+    nodes.push(LightNode::default());
+    let mut packed = 0;
+    let [lower, upper] = if span == LEAF {
+        packed = (first << LEAF_COUNT_BITS | lights.len()) as u32;
+        bounds(lights)
+    } else {
         let child = span / FAN;
-        for (i, part) in lights.chunks(child).enumerate() {
-            emit(part, first + i * child, child, nodes);
-        }
-    }
-    nodes[index].skip = nodes.len() as u32;
+        lights.chunks(child).enumerate().fold(
+            [Vec3::INFINITY, Vec3::NEG_INFINITY],
+            |[lower, upper], (i, part)| {
+                let of_child = emit(part, first + i * child, child, nodes);
+                [lower.min(of_child[0]), upper.max(of_child[1])]
+            },
+        )
+    };
+    let skip = nodes.len() as u32;
+    nodes[index] = LightNode { lower: lower.to_array(), skip, upper: upper.to_array(), lights: packed };
+    [lower, upper]
 }
 
-fn bounds(lights: &[PointLight]) -> (Vec3, Vec3) {
-    lights.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), light| {
+/// The box of the lights' spheres.
+fn bounds(lights: &[PointLight]) -> [Vec3; 2] {
+    lights.iter().fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[lower, upper], light| {
         // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
         let reach = light.range.unwrap_or(f32::MAX) * 1.0001 + 1e-6 * light.position.abs().max_element();
-        (lower.min(light.position - reach), upper.max(light.position + reach))
+        [lower.min(light.position - reach), upper.max(light.position + reach)]
     })
 }
 

@@ -122,11 +122,20 @@ impl<T: Pod> Buffer<T> {
     /// Copies `data` to the front of a host-visible buffer.
     ///
     /// # Errors
-    /// [`Error::Vulkan`] where the buffer is not host-visible or too short: a bug in amas.
+    /// As [`Buffer::write_from`].
     pub fn write(&mut self, data: &[T]) -> Result<()> {
+        self.write_from(0, data)
+    }
+
+    /// Copies `data` into a host-visible buffer, from its element `first` on.
+    ///
+    /// # Errors
+    /// [`Error::Vulkan`] where the buffer is not host-visible or too short: a bug in amas.
+    pub fn write_from(&mut self, first: usize, data: &[T]) -> Result<()> {
         let bytes: &[u8] = bytemuck::cast_slice(data);
+        let first = first * size_of::<T>();
         let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
-        match mapped.and_then(|mapped| mapped.get_mut(..bytes.len())) {
+        match mapped.and_then(|mapped| mapped.get_mut(first..first + bytes.len())) {
             Some(target) => {
                 target.copy_from_slice(bytes);
                 Ok(())

@@ -124,9 +124,13 @@ impl Image {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn upload<T: Pod>(&self, levels: &[&[T]], after: Use) -> Result<()> {
-        let all: Vec<T> = levels.concat();
-        let mut staging = Buffer::new(&self.device, "staging", BufferUse::Upload, all.len())?;
-        staging.write(&all)?;
+        let texels = levels.iter().map(|level| level.len()).sum();
+        let mut staging = Buffer::<T>::new(&self.device, "staging", BufferUse::Upload, texels)?;
+        let mut first = 0;
+        for level in levels {
+            staging.write_from(first, level)?;
+            first += level.len();
+        }
         self.device.run("upload image", |cmd| {
             cmd.transition(self, Use::Nothing, Use::TransferWrite);
             let mut offset = 0;
