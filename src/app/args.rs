@@ -1,6 +1,6 @@
 //! The command line.
 
-use clap::{Args as ClapArgs, Parser, Subcommand};
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// A clustered-forward renderer for very many lights, with every picture's error known.
@@ -57,10 +57,10 @@ Example:
     Bench(BenchOptions),
     /// Measure speed against error, and write tables and plots
     #[command(after_help = "Examples:
-  amas report --out docs/area
-  amas report --quick
+  amas report --out docs
+  amas report --chapter lights --quick
 
-Writes area.csv, area.json, area.md, area.svg and area.png. Times mean something on an idle machine only.")]
+Writes .csv, .json, .md, .svg and .png of each chapter. Times mean something on an idle machine only.")]
     Report(ReportOptions),
     /// List devices, and what each lacks
     #[command(after_help = "Example:\n  amas info --json")]
@@ -243,11 +243,21 @@ pub(super) struct BenchOptions {
     pub(super) json: Option<PathBuf>,
 }
 
+/// A chapter of the report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Chapter {
+    Area,
+    Lights,
+}
+
 #[derive(Debug, ClapArgs)]
 pub(super) struct ReportOptions {
     /// Existing folder for the files
     #[arg(long, value_name = "DIR", default_value = ".")]
     pub(super) out: PathBuf,
+    /// One chapter only: area (area lights) or lights (point lights by the thousand)
+    #[arg(long, value_name = "NAME")]
+    pub(super) chapter: Option<Chapter>,
     /// Few configurations and repetitions: to see that it works
     #[arg(long)]
     pub(super) quick: bool,

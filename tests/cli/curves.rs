@@ -7,7 +7,7 @@ const FILES: [&str; 6] = ["area.csv", "area.json", "area.md", "area.png", "area.
 #[test]
 fn area_lights() {
     let folder = Folder::new();
-    let printed = folder.done(&["report", "--quick", "--validate"]);
+    let printed = folder.done(&["report", "--chapter", "area", "--quick", "--validate"]);
     assert_eq!(folder.names(), FILES);
     let json = folder.json("area.json");
     assert_eq!(json["schema"], 1);
@@ -54,4 +54,33 @@ fn area_lights() {
     for text in [svg, String::from_utf8(folder.read("area.md")).unwrap()] {
         assert!(text.contains("quadrature 4") && text.contains("LTC closed form"), "{text}");
     }
+}
+
+#[test]
+fn many_lights() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "lights", "--quick", "--validate"]);
+    let files = ["lights.csv", "lights.json", "lights.md", "lights.png", "lights.svg", "scene.toml"];
+    assert_eq!(folder.names(), files);
+    let json = folder.json("lights.json");
+    let points = json["points"].as_array().unwrap();
+    let csv = String::from_utf8(folder.read("lights.csv")).unwrap();
+    assert_eq!(csv.lines().count(), points.len() + 1);
+    let of = |sweep: &str| -> Vec<[f64; 2]> {
+        let own = points.iter().filter(|point| point["sweep"] == sweep);
+        own.map(|point| ["setting", "error"].map(|key| point[key].as_f64().unwrap())).collect()
+    };
+    for [error, measured] in of("light_error") {
+        // Rounding where every light is evaluated, and the promise elsewhere.
+        assert!(measured <= error.max(1e-5), "light_error {error}: {measured}");
+    }
+    let caps = of("max_lights_per_cluster");
+    assert!(caps.windows(2).all(|pair| pair[0][1] >= pair[1][1]), "{caps:?}");
+    assert!(caps.last().unwrap()[1] < 1e-5, "{caps:?}");
+    assert_eq!(of("lights").iter().map(|point| point[0]).collect::<Vec<_>>(), [64.0, 4096.0]);
+    for sweep in ["light_error", "max_lights_per_cluster", "lights"] {
+        assert!(printed.contains(sweep), "{printed}");
+    }
+    let svg = String::from_utf8(folder.read("lights.svg")).unwrap();
+    assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
 }

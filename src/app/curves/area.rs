@@ -1,20 +1,27 @@
 //! The chapter on area lights: what a light costs a pixel, and how wrong it is, by each way to estimate it.
 
+mod configurations;
+mod figures;
+mod page;
+mod plot;
+mod tiers;
+
 use super::super::report;
-use super::configurations::{BANDS, DISTRIBUTION, MODELS, SHAPES, configurations, material};
-use super::figures::{FLOOR, Point, complete};
-use super::tiers::{Bench, Family, Pipelines, TIERS};
-use super::{page, plot, progress};
+use super::plot as plots;
+use super::progress;
 use crate::error::Result;
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
 use crate::image::write_atomically;
 use crate::scene::Scene;
+use configurations::{BANDS, DISTRIBUTION, MODELS, SHAPES, configurations, material};
+use figures::{FLOOR, Point, complete};
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
+use tiers::{Bench, Family, Pipelines, TIERS};
 
 /// What is written.
 pub(super) const FILES: [&str; 5] = ["area.csv", "area.json", "area.md", "area.svg", "area.png"];
@@ -32,11 +39,16 @@ struct Extent {
 const FULL: Extent = Extent { configurations: 64, repetitions: 9, models: 2, shapes: 3, tolerance: 2e-4 };
 const QUICK: Extent = Extent { configurations: 12, repetitions: 1, models: 1, shapes: 1, tolerance: 1e-3 };
 
+/// What is printed.
+pub(super) fn summary(figures: &Figures) -> String {
+    page::summary(figures)
+}
+
 /// Everything that was measured.
 pub(super) struct Figures {
-    pub(super) points: Vec<Point>,
-    pub(super) extent: String,
-    pub(super) quick: bool,
+    points: Vec<Point>,
+    extent: String,
+    quick: bool,
 }
 
 #[derive(Serialize)]
@@ -124,6 +136,7 @@ pub(super) fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures
     };
     report::save(json, &content)?;
     write_atomically(markdown, |file| file.write_all(page::page(device, figures).as_bytes()))?;
-    plot::svg(svg, &figures.points)?;
-    plot::png(png, &figures.points)
+    let plot = plot::AreaPlot(&figures.points);
+    plots::svg(svg, &plot)?;
+    plots::png(png, &plot)
 }

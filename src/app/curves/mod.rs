@@ -1,15 +1,11 @@
-//! `amas report`: speed against error, measured on the device. One chapter so far, area lights; a chapter is a module
-//! with its files and a `run`.
+//! `amas report`: speed against error, measured on the device, a chapter a module.
 
 mod area;
-mod configurations;
-mod figures;
 mod letters;
-mod page;
+mod lights;
 mod plot;
-mod tiers;
 
-use super::args::ReportOptions;
+use super::args::{Chapter, ReportOptions};
 use super::outputs::check_folder;
 use super::terminal::print;
 use crate::error::Result;
@@ -18,14 +14,27 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 
 pub(super) fn run(options: &ReportOptions) -> Result<()> {
-    let files = area::FILES.map(|name| options.out.join(name));
-    files.iter().try_for_each(|path| check_folder(path))?;
+    let wanted = |chapter| options.chapter.is_none_or(|only| only == chapter);
+    let area = area::FILES.map(|name| options.out.join(name));
+    let lights = lights::FILES.map(|name| options.out.join(name));
+    let all = [(Chapter::Area, &area), (Chapter::Lights, &lights)];
+    let written = all.into_iter().filter(|(chapter, _)| wanted(*chapter)).flat_map(|(_, files)| files);
+    written.into_iter().try_for_each(|path| check_folder(path))?;
     let device =
         Device::open(&Options { device: options.device.device.clone(), validate: options.device.validate })?;
-    let figures = area::measure(&device, options.quick)?;
-    device.require_silence()?;
-    area::write(&files, device.info(), &figures)?;
-    print(page::summary(&figures))
+    if wanted(Chapter::Area) {
+        let figures = area::measure(&device, options.quick)?;
+        device.require_silence()?;
+        area::write(&area, device.info(), &figures)?;
+        print(area::summary(&figures))?;
+    }
+    if wanted(Chapter::Lights) {
+        let figures = lights::measure(&device, options.quick)?;
+        device.require_silence()?;
+        lights::write(&lights, device.info(), &figures)?;
+        print(lights::summary(&figures))?;
+    }
+    Ok(())
 }
 
 fn progress(work: usize) -> ProgressBar {

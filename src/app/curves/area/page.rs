@@ -1,6 +1,6 @@
 //! The chapter on area lights as text.
 
-use super::area::Figures;
+use super::Figures;
 use super::configurations::{BANDS, DISTRIBUTION, SHAPES};
 use super::figures::{FLOOR, Point};
 use super::tiers::{Family, TIERS};

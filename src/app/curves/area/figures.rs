@@ -1,8 +1,8 @@
 //! Figures of the estimators, and which of them nothing beats.
 
-use super::super::measure::Figure;
 use super::configurations::Configuration;
 use super::tiers::{Family, TIERS, Tier};
+use crate::app::measure::Figure;
 use crate::shared::{LINEAR_GROUP, TIER_LIGHTS};
 use serde::Serialize;
 

@@ -1,0 +1,116 @@
+//! The plot: error over time, both logarithmic, one panel a band.
+
+use super::super::plot::{Drawn, FONT, Plot, TITLE, number};
+use super::configurations::BANDS;
+use super::figures::Point;
+use super::tiers::Family;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+const SIZE: (u32, u32) = (1560, 800);
+const FAMILIES: [(Family, RGBColor); 7] = [
+    (Family::Representative, RGBColor(200, 30, 30)),
+    (Family::Cubature, RGBColor(30, 90, 200)),
+    (Family::ClosedForm, RGBColor(150, 40, 170)),
+    (Family::Quadrature, RGBColor(20, 130, 60)),
+    (Family::Shipped, RGBColor(0, 0, 0)),
+    (Family::AreaSamples, RGBColor(220, 120, 0)),
+    (Family::ProxySamples, RGBColor(120, 90, 50)),
+];
+
+/// Pixels of a letter, about, to keep labels apart.
+const LETTER: [i32; 2] = [8, 15];
+/// What the axis takes at a panel's left.
+const MARGIN: i32 = 80;
+
+/// The plot of a set of points.
+pub(super) struct AreaPlot<'a>(pub(super) &'a [Point]);
+
+impl Plot for AreaPlot<'_> {
+    const SIZE: (u32, u32) = SIZE;
+
+    fn draw<B: DrawingBackend>(&self, root: &DrawingArea<B, Shift>) -> Drawn<B> {
+        draw(root, self.0)
+    }
+}
+
+fn draw<B: DrawingBackend>(root: &DrawingArea<B, Shift>, points: &[Point]) -> Drawn<B> {
+    root.fill(&WHITE)?;
+    let summary: Vec<&Point> = points.iter().filter(|p| p.summary()).collect();
+    let range = |value: &dyn Fn(&Point) -> f64| {
+        let values = summary.iter().map(|p| value(p).max(1e-9));
+        let (least, most) = values.fold((f64::MAX, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
+        [least / 1.6, most * 1.6]
+    };
+    let mut labels = Vec::new();
+    let panels = root.split_evenly((1, BANDS.len()));
+    let width_of_panel = (SIZE.0 as usize / BANDS.len()) as i32;
+    for ((band, alphas), panel) in BANDS.into_iter().zip(&panels) {
+        let ([x0, x1], [y0, y1]) = (range(&|p| p.ns), range(&|p| p.error));
+        let alphas: Vec<_> = alphas.iter().map(f64::to_string).collect();
+        let mut chart = ChartBuilder::on(panel)
+            .margin(16)
+            .caption(format!("{band}: alpha {}", alphas.join(", ")), TITLE)
+            .x_label_area_size(46)
+            .y_label_area_size(64)
+            // Room for the last labels.
+            .build_cartesian_2d((x0..x1 * 2.0).log_scale(), (y0..y1).log_scale())?;
+        chart
+            .configure_mesh()
+            .label_style(FONT)
+            .x_desc("across: ns per light and pixel; up: mean relative error; ringed: nothing is both faster and more exact")
+            .x_label_formatter(&|value| number(*value))
+            .y_label_formatter(&|value| number(*value))
+            .light_line_style(RGBColor(240, 240, 240))
+            .bold_line_style(RGBColor(215, 215, 215))
+            .draw()?;
+        let own: Vec<&&Point> = summary.iter().filter(|p| p.band == band).collect();
+        let at = |p: &Point| (p.ns, p.error.max(1e-9));
+        let mut front: Vec<_> = own.iter().filter(|p| p.pareto).map(|p| at(p)).collect();
+        front.sort_by(|a, b| a.0.total_cmp(&b.0));
+        chart.draw_series([PathElement::new(front.clone(), RGBColor(190, 190, 190).stroke_width(5))])?;
+        for (family, color) in FAMILIES {
+            let members: Vec<&&&Point> = own.iter().filter(|p| p.family == family).collect();
+            if family.random() {
+                let line: Vec<_> = members.iter().map(|p| at(p)).collect();
+                chart.draw_series([PathElement::new(line, color.stroke_width(1))])?;
+            }
+            for p in members {
+                let size = if family == Family::Shipped { 6 } else { 4 };
+                chart.draw_series([Circle::new(at(p), size, color.filled())])?;
+                if p.pareto {
+                    chart.draw_series([Circle::new(at(p), size + 3, color.stroke_width(1))])?;
+                }
+                labels.push((chart.plotting_area().map_coordinate(&at(p)), p.tier, color));
+            }
+        }
+    }
+    // Labels go where nothing is: points first, then each label at the first free place beside its own.
+    let mut taken: Vec<[i32; 4]> = labels.iter().map(|&((x, y), ..)| [x - 7, y - 7, x + 7, y + 7]).collect();
+    for ((x, y), text, color) in labels {
+        let [width, height] = [LETTER[0] * text.len() as i32, LETTER[1]];
+        let places = [
+            (x + 11, y - height / 2),
+            (x - 11 - width, y - height / 2),
+            (x + 8, y - height - 6),
+            (x + 8, y + 6),
+            (x - 8 - width, y - height - 6),
+            (x - 8 - width, y + 6),
+            (x - width / 2, y - height - 12),
+            (x - width / 2, y + 12),
+            (x + 8, y + 22),
+            (x - 8 - width, y - height - 22),
+        ];
+        let free = |&(left, top): &(i32, i32)| {
+            let panel = x / width_of_panel * width_of_panel;
+            let inside = left > panel + MARGIN && left + width < panel + width_of_panel;
+            let clear =
+                |b: &[i32; 4]| left + width < b[0] || left > b[2] || top + height < b[1] || top > b[3];
+            inside && taken.iter().all(clear)
+        };
+        let (left, top) = places.into_iter().find(free).unwrap_or(places[0]);
+        taken.push([left, top, left + width, top + height]);
+        root.draw_text(text, &FONT.into_font().color(&color), (left, top))?;
+    }
+    root.present()
+}

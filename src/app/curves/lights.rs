@@ -1,0 +1,216 @@
+//! The chapter on point lights by the thousand: what a picture costs, and how wrong it is, by each knob.
+
+mod page;
+mod plot;
+mod sweeps;
+
+use super::super::measure::Figure;
+use super::super::report;
+use super::plot as plots;
+use super::progress;
+use crate::compare::{self, Options};
+use crate::error::Result;
+use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
+use crate::gpu::{Device, DeviceInfo};
+use crate::gpu_scene::GpuScene;
+use crate::image::{HdrImage, write_atomically};
+use crate::scene::Scene;
+use indicatif::ProgressBar;
+use serde::Serialize;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+use sweeps::{SWEEPS, Setting, Sweep};
+
+/// What is written.
+pub(super) const FILES: [&str; 5] = ["lights.csv", "lights.json", "lights.md", "lights.svg", "lights.png"];
+
+/// How much is measured.
+#[derive(Clone, Copy)]
+struct Extent {
+    size: [u32; 2],
+    /// log2 of what the sweeps' lights are divided by.
+    fewer: u32,
+    /// Every so many-th position of a knob.
+    step: usize,
+    repetitions: usize,
+}
+
+const FULL: Extent = Extent { size: [320, 180], fewer: 0, step: 1, repetitions: 9 };
+const QUICK: Extent = Extent { size: [64, 36], fewer: 4, step: 3, repetitions: 1 };
+
+/// One setting of a knob.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Point {
+    /// Which knob.
+    sweep: &'static str,
+    /// Where it stands.
+    setting: f64,
+    /// Point lights of the scene.
+    lights: usize,
+    /// CPU time of the process, milliseconds a frame.
+    cpu_ms: Figure,
+    /// Wall time.
+    wall_ms: Figure,
+    /// Pairs of pixel and light a pixel.
+    pairs_per_pixel: f64,
+    /// Evaluated pairs over useful ones.
+    pair_ratio: f64,
+    /// Relative error against every light on every pixel: mean and 99th percentile.
+    error: f64,
+    error_p99: f64,
+    /// Mean of the picture over that of the truth, less 1.
+    bias: f64,
+    /// Neither more nor less of the knob is both faster and more exact.
+    pareto: bool,
+}
+
+/// Everything that was measured.
+pub(super) struct Figures {
+    points: Vec<Point>,
+    extent: String,
+    quick: bool,
+}
+
+#[derive(Serialize)]
+struct File<'a> {
+    schema: u32,
+    device: &'a DeviceInfo,
+    /// Version of amas.
+    version: &'static str,
+    /// Commit it was built from; `null` outside a checkout.
+    commit: Option<&'static str>,
+    quick: bool,
+    extent: &'a str,
+    points: &'a [Point],
+}
+
+pub(super) fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
+    let extent = if quick { QUICK } else { FULL };
+    let settings: usize = SWEEPS.iter().map(|sweep| sweep.settings.len().div_ceil(extent.step)).sum();
+    let bar = progress(settings * (2 + extent.repetitions));
+    let mut points = Vec::new();
+    for sweep in SWEEPS {
+        bar.set_message(sweep.name);
+        points.extend(of_sweep(device, sweep, extent, &bar)?);
+    }
+    bar.finish_and_clear();
+    let extent =
+        format!("{} × {} pixels, {} repetitions", extent.size[0], extent.size[1], extent.repetitions);
+    Ok(Figures { points, extent, quick })
+}
+
+/// A setting's frame, and what it is compared with.
+struct Subject {
+    setting: Setting,
+    scene: Scene,
+    frame: Frame,
+    truth: HdrImage,
+    timings: Vec<Timings>,
+}
+
+fn of_sweep(device: &Arc<Device>, sweep: &Sweep, extent: Extent, bar: &ProgressBar) -> Result<Vec<Point>> {
+    let mut subjects = Vec::new();
+    let mut last: Option<(Scene, Arc<GpuScene>, HdrImage)> = None;
+    for &setting in sweep.settings.iter().step_by(extent.step) {
+        let scene = sweep.scene(setting, extent.size, extent.fewer)?;
+        let (gpu_scene, truth) = match &last {
+            // Most knobs leave the lights alone.
+            Some((old, gpu_scene, truth)) if old.point_lights == scene.point_lights => {
+                (gpu_scene.clone(), truth.clone())
+            }
+            _ => {
+                let gpu_scene = Arc::new(GpuScene::new(device, &scene)?);
+                let brute_force = FrameSettings { brute_force: true, ..settings(&scene) };
+                let mut frame = Frame::new(device, &gpu_scene, brute_force)?;
+                render(&mut frame, &scene)?;
+                (gpu_scene, frame.hdr()?)
+            }
+        };
+        bar.inc(1);
+        let mut frame = Frame::new(device, &gpu_scene, settings(&scene))?;
+        // The first frame compiles, and makes room for its lists.
+        render(&mut frame, &scene)?;
+        bar.inc(1);
+        last = Some((scene.clone(), gpu_scene, truth.clone()));
+        subjects.push(Subject { setting, scene, frame, truth, timings: Vec::new() });
+    }
+    for _ in 0..extent.repetitions {
+        for subject in &mut subjects {
+            subject.timings.push(render(&mut subject.frame, &subject.scene)?);
+            bar.inc(1);
+        }
+    }
+    let points = subjects.iter().map(|subject| point(sweep, subject)).collect::<Result<Vec<_>>>()?;
+    let beaten = |p: &Point| {
+        let faster = |q: &&Point| q.cpu_ms.median < p.cpu_ms.median;
+        points.iter().filter(faster).any(|q| q.error <= p.error)
+    };
+    let front: Vec<bool> = points.iter().map(|p| !beaten(p)).collect();
+    Ok(points.into_iter().zip(front).map(|(point, pareto)| Point { pareto, ..point }).collect())
+}
+
+fn settings(scene: &Scene) -> FrameSettings {
+    FrameSettings::new(&scene.render, &scene.cameras[0])
+}
+
+fn render(frame: &mut Frame, scene: &Scene) -> Result<Timings> {
+    frame.render(&FrameInputs {
+        camera: &scene.cameras[0],
+        time: 0.0,
+        samples: 1,
+        exposure: 0.0,
+        split: false,
+        progress: ProgressBar::hidden(),
+    })
+}
+
+fn point(sweep: &Sweep, subject: &Subject) -> Result<Point> {
+    let Subject { setting, scene, frame, truth, timings } = subject;
+    let options = Options { mask: None, block: 1, display_referred: false };
+    let picture = frame.hdr()?;
+    let figures = compare::compare(&picture, truth, &options)?;
+    let sum = |image: &HdrImage| image.pixels.iter().flatten().map(|&v| f64::from(v)).sum::<f64>();
+    let pairs = frame.pairs()?;
+    let [width, height] = scene.render.size;
+    let mean =
+        truth.pixels.iter().flatten().map(|&v| f64::from(v)).sum::<f64>() / truth.pixels.len() as f64 / 3.0;
+    Ok(Point {
+        sweep: sweep.name,
+        setting: setting.value(scene),
+        lights: scene.point_lights.len(),
+        cpu_ms: report::figure(timings, |t| Some(t.cpu_ms)).unwrap_or_default(),
+        wall_ms: report::figure(timings, |t| Some(t.wall_ms)).unwrap_or_default(),
+        pairs_per_pixel: pairs.evaluated as f64 / f64::from(width * height),
+        pair_ratio: pairs.evaluated as f64 / pairs.useful.max(1) as f64,
+        error: figures.mean_relative_error,
+        error_p99: figures.p99,
+        bias: sum(&picture) / sum(truth).max(f64::MIN_POSITIVE) - 1.0,
+        pareto: false,
+    })
+}
+
+/// Writes [`FILES`], each to its path.
+pub(super) fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
+    let [csv, json, markdown, svg, png] = paths;
+    write_atomically(csv, |file| page::csv(file, &figures.points))?;
+    let content = File {
+        schema: 1,
+        device,
+        version: env!("CARGO_PKG_VERSION"),
+        commit: option_env!("AMAS_COMMIT"),
+        quick: figures.quick,
+        extent: &figures.extent,
+        points: &figures.points,
+    };
+    report::save(json, &content)?;
+    write_atomically(markdown, |file| file.write_all(page::page(device, figures).as_bytes()))?;
+    let plot = plot::LightsPlot(&figures.points);
+    plots::svg(svg, &plot)?;
+    plots::png(png, &plot)
+}
+
+/// What is printed.
+pub(super) fn summary(figures: &Figures) -> String {
+    page::summary(figures)
+}

@@ -1,0 +1,92 @@
+//! The chapter on point lights as text.
+
+use super::sweeps::SWEEPS;
+use super::{Figures, Point};
+use crate::gpu::DeviceInfo;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
+    writeln!(
+        file,
+        "sweep,setting,lights,cpu_ms,cpu_ms_mad,wall_ms,pairs_per_pixel,pair_ratio,error,error_p99,bias,pareto"
+    )?;
+    points.iter().try_for_each(|p| {
+        writeln!(
+            file,
+            "{},{},{},{:.2},{:.2},{:.2},{:.2},{:.3},{:.6},{:.6},{:.6},{}",
+            p.sweep,
+            p.setting,
+            p.lights,
+            p.cpu_ms.median,
+            p.cpu_ms.mad,
+            p.wall_ms.median,
+            p.pairs_per_pixel,
+            p.pair_ratio,
+            p.error,
+            p.error_p99,
+            p.bias,
+            u8::from(p.pareto)
+        )
+    })
+}
+
+/// What is printed.
+pub(super) fn summary(figures: &Figures) -> String {
+    let mut text = String::new();
+    for sweep in SWEEPS {
+        // Writing to a string cannot fail.
+        let _ =
+            writeln!(text, "{:<24}  CPU ms   pairs/pixel   mean error   p99 error       bias", sweep.name);
+        for p in figures.points.iter().filter(|p| p.sweep == sweep.name) {
+            let _ = writeln!(
+                text,
+                "{:<24}{:>8.1}  {:>12.1}   {:>10.6}   {:>9.6}   {:>8.5}",
+                p.setting, p.cpu_ms.median, p.pairs_per_pixel, p.error, p.error_p99, p.bias
+            );
+        }
+    }
+    text.trim_end().to_owned()
+}
+
+pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
+    let commit = option_env!("AMAS_COMMIT").unwrap_or("an unknown commit");
+    let quick = if figures.quick { " --quick" } else { "" };
+    let mut text = format!(
+        "# Many point lights: speed against error\n\n\
+         Written by `amas report --chapter lights{quick} --out DIR` at {commit} on {} ({}, Vulkan {}). `lights.csv` and \
+         `lights.json` have every figure.\n\n\
+         ![Error over CPU time for each knob, and time over the number of lights](lights.png)\n\n\
+         The scene is `scenes/million.toml`, a hall with sixty spheres of five BSDFs, with as many of its lights as each \
+         table says; {}. Times are medians of whole frames, CPU time of the process; errors are relative to the picture \
+         with every light on every pixel, of the same program.\n",
+        device.name, device.driver, device.api, figures.extent
+    );
+    for sweep in SWEEPS {
+        let _ = write!(
+            text,
+            "\n## `{}`\n\nSwept: {}.\n\n\
+             | {} | lights | CPU ms | wall ms | pairs a pixel | evaluated per useful | mean error | p99 | bias | front |\n\
+             | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+            sweep.name, sweep.what, sweep.name
+        );
+        for p in figures.points.iter().filter(|p| p.sweep == sweep.name) {
+            let _ = writeln!(
+                text,
+                "| {} | {} | {:.1} ± {:.1} | {:.1} | {:.1} | {:.2} | {:.4} % | {:.3} % | {:+.4} % | {} |",
+                p.setting,
+                p.lights,
+                p.cpu_ms.median,
+                p.cpu_ms.mad,
+                p.wall_ms.median,
+                p.pairs_per_pixel,
+                p.pair_ratio,
+                100.0 * p.error,
+                100.0 * p.error_p99,
+                100.0 * p.bias,
+                if p.pareto { "yes" } else { "" }
+            );
+        }
+    }
+    text
+}

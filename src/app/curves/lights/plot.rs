@@ -1,0 +1,82 @@
+//! The plot: error over time for the two knobs, time over the number of lights; all logarithmic.
+
+use super::super::plot::{Drawn, FONT, Plot, TITLE, number};
+use super::Point;
+use super::sweeps::SWEEPS;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+/// The plot of a set of points.
+pub(super) struct LightsPlot<'a>(pub(super) &'a [Point]);
+
+const LINE: RGBColor = RGBColor(30, 90, 200);
+const GRID: [RGBColor; 2] = [RGBColor(240, 240, 240), RGBColor(215, 215, 215)];
+/// Errors below this are rounding.
+const LEAST_ERROR: f64 = 1e-7;
+
+impl Plot for LightsPlot<'_> {
+    const SIZE: (u32, u32) = (1560, 560);
+
+    fn draw<B: DrawingBackend>(&self, root: &DrawingArea<B, Shift>) -> Drawn<B> {
+        root.fill(&WHITE)?;
+        for (sweep, panel) in SWEEPS.iter().zip(root.split_evenly((1, SWEEPS.len()))) {
+            let own: Vec<&Point> = self.0.iter().filter(|p| p.sweep == sweep.name).collect();
+            let growth = sweep.name == "lights";
+            let at = |p: &Point| match growth {
+                true => (p.setting, p.cpu_ms.median),
+                false => (p.cpu_ms.median, p.error.max(LEAST_ERROR)),
+            };
+            let axes =
+                if growth { "across: lights; up: CPU ms" } else { "across: CPU ms; up: mean relative error" };
+            draw_panel(
+                &panel,
+                sweep.what,
+                axes,
+                &own.iter().map(|p| (at(p), p.setting)).collect::<Vec<_>>(),
+            )?;
+        }
+        root.present()
+    }
+}
+
+/// Points joined by a line, each labelled with its setting.
+fn draw_panel<B: DrawingBackend>(
+    panel: &DrawingArea<B, Shift>,
+    title: &str,
+    axes: &str,
+    points: &[((f64, f64), f64)],
+) -> Drawn<B> {
+    let range = |value: fn(&(f64, f64)) -> f64| {
+        let values = points.iter().map(|(at, _)| value(at).max(LEAST_ERROR));
+        let (least, most) = values.fold((f64::MAX, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
+        least / 1.6..most.max(least * 1.1) * 1.6
+    };
+    let mut chart = ChartBuilder::on(panel)
+        .margin(16)
+        .caption(title, TITLE)
+        .x_label_area_size(46)
+        .y_label_area_size(64)
+        .build_cartesian_2d(range(|at| at.0).log_scale(), range(|at| at.1).log_scale())?;
+    chart
+        .configure_mesh()
+        .label_style(FONT)
+        .x_desc(axes)
+        .x_label_formatter(&|value| number(*value))
+        .y_label_formatter(&|value| number(*value))
+        .light_line_style(GRID[0])
+        .bold_line_style(GRID[1])
+        .draw()?;
+    chart.draw_series([PathElement::new(
+        points.iter().map(|(at, _)| *at).collect::<Vec<_>>(),
+        LINE.stroke_width(1),
+    )])?;
+    for (at, setting) in points {
+        chart.draw_series([Circle::new(*at, 4, LINE.filled())])?;
+        let (x, y) = chart.plotting_area().map_coordinate(at);
+        panel.draw_text(&setting.to_string(), &FONT.into_font().color(&BLACK), {
+            let (left, top) = panel.get_base_pixel();
+            (x - left + 8, y - top - 18)
+        })?;
+    }
+    Ok(())
+}

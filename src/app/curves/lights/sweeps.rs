@@ -1,0 +1,120 @@
+//! The knobs, and the scenes that they are turned in.
+
+use crate::error::Result;
+use crate::scene::{PointLight, Scene, load_embedded};
+
+/// Ground, walls and sixty spheres of all five BSDFs, in a box of lights.
+const HALL: &str = include_str!("../../../../scenes/million.toml");
+
+/// A position of a knob.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Setting {
+    /// `light_error` for lights without a range; 0 evaluates every light.
+    LightError(f64),
+    /// `max_lights_per_cluster` for lights with one.
+    Cap(u32),
+    /// log2 of the number of lights, as many of them reaching a pixel whatever the number.
+    Lights(u32),
+}
+
+impl Setting {
+    /// The number it stands for, in its scene.
+    pub(super) fn value(self, scene: &Scene) -> f64 {
+        match self {
+            Self::LightError(error) => error,
+            Self::Cap(cap) => cap.into(),
+            Self::Lights(_) => scene.point_lights.len() as f64,
+        }
+    }
+}
+
+/// A knob and where it is put.
+pub(super) struct Sweep {
+    pub(super) name: &'static str,
+    /// What is swept, for the axis.
+    pub(super) what: &'static str,
+    pub(super) settings: &'static [Setting],
+}
+
+/// All knobs, each with its positions in order.
+pub(super) const SWEEPS: &[Sweep] = &[
+    Sweep {
+        name: "light_error",
+        what: "light_error, 65,536 lights without a range",
+        settings: &[
+            Setting::LightError(0.0),
+            Setting::LightError(0.002),
+            Setting::LightError(0.005),
+            Setting::LightError(0.01),
+            Setting::LightError(0.02),
+            Setting::LightError(0.05),
+            Setting::LightError(0.1),
+        ],
+    },
+    Sweep {
+        name: "max_lights_per_cluster",
+        what: "max_lights_per_cluster, 65,536 lights that overlap",
+        settings: &[
+            Setting::Cap(8),
+            Setting::Cap(16),
+            Setting::Cap(32),
+            Setting::Cap(64),
+            Setting::Cap(128),
+            Setting::Cap(256),
+            Setting::Cap(1024),
+        ],
+    },
+    Sweep {
+        name: "lights",
+        what: "number of lights, as many of them at each pixel",
+        settings: &[
+            Setting::Lights(10),
+            Setting::Lights(12),
+            Setting::Lights(14),
+            Setting::Lights(16),
+            Setting::Lights(18),
+            Setting::Lights(20),
+        ],
+    },
+];
+
+/// log2 of the lights of the first two sweeps.
+const LIGHTS: u32 = 16;
+
+impl Sweep {
+    /// The scene for a position of the knob, with 2^`fewer` times fewer lights than told.
+    pub(super) fn scene(&self, setting: Setting, size: [u32; 2], fewer: u32) -> Result<Scene> {
+        let mut scene = load_embedded("million.toml", HALL, &[], &[])?;
+        scene.render.size = size;
+        scene.render.background = [0.0; 3];
+        // The range at which as many of the lights reach a point as of the hall's million.
+        let range = |log2: u32| 1.15 * f32::exp2((20 - log2) as f32 / 3.0);
+        let log2 = match setting {
+            Setting::Lights(log2) => log2 - fewer.min(log2),
+            _ => LIGHTS - fewer,
+        };
+        let lights = &mut scene.point_lights;
+        // The generator's lights are independent: the first of them are spread as all are.
+        lights.truncate(1 << log2);
+        // Equally bright pictures.
+        let brighter = 1.0 / f32::exp2((log2 as f32 - 20.0) / 3.0).powi(2);
+        let range = match setting {
+            Setting::LightError(error) => {
+                scene.render.light_error = error as f32;
+                None
+            }
+            Setting::Cap(cap) => {
+                scene.render.max_lights_per_cluster = cap;
+                Some(2.0 * range(log2))
+            }
+            Setting::Lights(_) => Some(range(log2)),
+        };
+        lights.iter_mut().for_each(|light| change(light, range, brighter));
+        Ok(scene)
+    }
+}
+
+fn change(light: &mut PointLight, range: Option<f32>, brighter: f32) {
+    light.range = range;
+    light.intensity *= brighter;
+}
