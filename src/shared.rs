@@ -175,6 +175,8 @@ shared! {
         SPEC_TIER = 40;
         /// How many points it takes; of `TIER_SHIPPED` the `light_error` in thousandths.
         SPEC_TIER_POINTS = 41;
+        /// Invocations that share a row.
+        SPEC_TIER_INVOCATIONS = 42;
         /// Lights of a row at most.
         TIER_LIGHTS = 8;
         /// Loads surface and light only.
