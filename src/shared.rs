@@ -81,10 +81,8 @@ shared! {
         AREA_HEIGHT_LOG2 = 11;
         /// Area lights of a scene at most.
         MAX_AREA_LIGHTS = 4096;
-        /// Area lights in a texel of a cluster's mask: two words of lights that reach it, two of those that are far.
-        AREA_MASK_LIGHTS = 64;
-        /// A light is far from a cluster if it is this many times its own radius away.
-        AREA_FAR = 32;
+        /// Area lights in a texel of a cluster's mask: a bit each.
+        AREA_MASK_LIGHTS = 128;
         /// Texture slots of a material.
         MATERIAL_TEXTURES = 8;
         /// A parameter without a texture.
@@ -181,6 +179,8 @@ shared! {
         SPEC_TIER = 40;
         /// How many points it takes; of `TIER_SHIPPED` the `light_error` in thousandths.
         SPEC_TIER_POINTS = 41;
+        /// Invocations that share a row.
+        SPEC_TIER_INVOCATIONS = 42;
         /// Lights of a row at most.
         TIER_LIGHTS = 8;
         /// Loads surface and light only.

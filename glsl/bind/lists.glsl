@@ -27,11 +27,10 @@ LightList list_at(ivec2 pixel) {
 // Four indices of a list; past its end they name the null light.
 uvec4 list_indices(uint texel) { return texelFetch(light_lists, list_texel(texel), 0); }
 
-// 32 area lights from number 32 · word on: a bit for those that reach the cluster, and one for those that are far.
-uvec2 area_mask(uint cluster, uint word) {
-    if (cluster >= frame.cluster_capacity) return uvec2(0u);
-    uvec4 masks = texelFetch(light_lists, list_texel(cluster * frame.area_texels + (word >> 1)), 0);
-    return (word & 1u) == 0u ? masks.xz : masks.yw;
+// 32 area lights from number 32 · word on: a bit for those that reach the cluster.
+uint area_mask(uint cluster, uint word) {
+    if (cluster >= frame.cluster_capacity) return 0u;
+    return texelFetch(light_lists, list_texel(cluster * frame.area_texels + (word >> 2)), 0)[word & 3u];
 }
 
 // Area lights that a pixel evaluates.
@@ -39,8 +38,8 @@ uint area_count(ivec2 pixel) {
     if (frame.area_texels == 0u) return frame.area_lights;
     uint count = 0u;
     uint cluster = cluster_at(pixel);
-    for (uint word = 0u; word < 2u * frame.area_texels; ++word) {
-        count += uint(bitCount(area_mask(cluster, word).x));
+    for (uint word = 0u; word < 4u * frame.area_texels; ++word) {
+        count += uint(bitCount(area_mask(cluster, word)));
     }
     return count;
 }

@@ -1,5 +1,5 @@
-// Step 4: which area lights reach each cluster, and which of these are far: masks, in the texels before the lists. A light is
-// left out only if no point of the cluster's box can be lit by it: black, or one-sided and the box behind it.
+// Step 4: which area lights reach each cluster: masks, in the texels before the lists. A light is left out only if no point
+// of the cluster's box can be lit by it: black, or one-sided and the box behind it.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -16,17 +16,13 @@ layout(set = SET_frame, binding = FRAME_LISTS_OUT, rgba32ui) writeonly uniform u
 // What float32 may lose of a sum of products, relative to their size.
 const float ROUNDING = 1e-6;
 
-// Whether the light reaches the box, and whether it does so from afar.
-uvec2 reach(AreaLight light, vec3 middle, vec3 half_size) {
+bool reaches(AreaLight light, vec3 middle, vec3 half_size) {
     vec3 offset = middle - light.center;
     float before = dot(light.normal, offset) + dot(abs(light.normal), half_size);
     float slack = ROUNDING * (dot(abs(light.center), vec3(1.0)) + dot(abs(middle) + half_size, vec3(1.0)));
     bool behind = light.kind != AREA_LINE && !light.two_sided && before < -slack;
     bool black = all(lessThanEqual(light.radiance, vec3(0.0)));
-    vec3 to_box = max(abs(middle - area_middle(light)) - half_size, vec3(0.0));
-    float least = float(AREA_FAR) * light.extent;
-    bool reaches = !behind && !black;
-    return uvec2(reaches, reaches && dot(to_box, to_box) > least * least);
+    return !behind && !black;
 }
 
 void main() {
@@ -38,11 +34,9 @@ void main() {
     for (uint texel = 0u; texel < frame.area_texels; ++texel) {
         uint first = texel * AREA_MASK_LIGHTS;
         uvec4 masks = uvec4(0u);
-        for (uint i = 0u; i < 32u; ++i) {
-            uvec2 low = first + i < frame.area_lights ? reach(area_light(first + i), middle, half_size) : uvec2(0u);
-            uint other = first + 32u + i;
-            uvec2 high = other < frame.area_lights ? reach(area_light(other), middle, half_size) : uvec2(0u);
-            masks |= uvec4(low.x, high.x, low.y, high.y) << i;
+        uint count = min(frame.area_lights - first, AREA_MASK_LIGHTS);
+        for (uint i = 0u; i < count; ++i) {
+            if (reaches(area_light(first + i), middle, half_size)) masks[i >> 5] |= 1u << (i & 31u);
         }
         imageStore(light_lists, list_texel(id * frame.area_texels + texel), masks);
     }

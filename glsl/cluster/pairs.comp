@@ -26,7 +26,7 @@ uint area_useful(ivec2 pixel, vec3 position) {
     uint useful = 0u;
     for (uint first = 0u; first < frame.area_lights; first += 32u) {
         uint bits = frame.area_lights - first < 32u ? (1u << (frame.area_lights - first)) - 1u : ~0u;
-        if (frame.area_texels != 0u) bits = area_mask(cluster_at(pixel), first >> 5).x;
+        if (frame.area_texels != 0u) bits = area_mask(cluster_at(pixel), first >> 5);
         for (; bits != 0u; bits &= bits - 1u) {
             useful += uint(before(area_light(first + uint(findLSB(bits))), position));
         }

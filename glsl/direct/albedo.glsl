@@ -4,6 +4,7 @@
 
 #include "lib/bsdf/fresnel.glsl"
 #include "lib/bsdf/parameters.glsl"
+#include "lib/bsdf/principled.glsl"
 
 struct Albedo {
     vec3 mass;
@@ -42,11 +43,7 @@ Albedo specular_albedo(BsdfParameters p, vec4 moments) {
     // Fitted at this one index.
     if (MODEL == MODEL_PLASTIC) return Albedo(p.specular * moments.x, abs(p.eta - 1.5) < 1e-3 ? 0.0 : 1.0);
     if (MODEL == MODEL_SUBSTRATE) return schlick_albedo(p.specular, 0.05, moments);
-    float y = luminance(p.color);
-    vec3 tint = y > 0.0 ? p.color / y : vec3(1.0);
-    float metallic = LOBE_METALLIC ? p.metallic : 0.0;
-    vec3 dielectric = sqr((p.eta - 1.0) / (p.eta + 1.0)) * lerp(vec3(1.0), tint, p.specular_tint);
-    return schlick_albedo(lerp(dielectric, p.color, metallic), LTC_METALLIC ? 1.0 : 0.04, moments);
+    return schlick_albedo(principled_f0(p), LTC_METALLIC ? 1.0 : 0.04, moments);
 }
 
 #endif

@@ -18,23 +18,32 @@
 layout(constant_id = 37) const bool LIGHT_MASKS = false;
 layout(location = 0) out vec4 radiance;
 
+// From the lights of a word's bits, the small ones first: lavapipe runs all estimators for each light of a loop that may
+// need any, and points are a fraction of them.
+vec3 word_reflected(Receiver receiver, uint first, uint lights) {
+    vec3 sum = vec3(0.0);
+    uint large = lights;
+    if (!SHADOWS) {
+        for (uint rest = lights; rest != 0u; rest &= rest - 1u) {
+            if (small_reflected(sum, receiver, first + uint(findLSB(rest)))) large &= ~(rest & (~rest + 1u));
+        }
+    }
+    for (; large != 0u; large &= large - 1u) sum += area_reflected(receiver, first + uint(findLSB(large)));
+    return sum;
+}
+
 void main() {
     Receiver receiver = receiver_here();
+    uint cluster = LIGHT_MASKS ? cluster_at(ivec2(gl_FragCoord.xy)) : 0u;
     vec3 sum = vec3(0.0);
-    if (LIGHT_MASKS) {
-        uint cluster = cluster_at(ivec2(gl_FragCoord.xy));
-        uint end = (draw.lights.y + 31u) >> 5;
-        for (uint word = draw.lights.x >> 5; word < end; ++word) {
-            // Of the words at both ends, the lights of this draw.
-            uint first = word == draw.lights.x >> 5 ? draw.lights.x & 31u : 0u;
-            uint last = min(draw.lights.y - (word << 5), 32u) - 1u;
-            uint mine = (0xffffffffu << first) & (0xffffffffu >> (31u - last));
-            for (uint mask = area_mask(cluster, word).x & mine; mask != 0u; mask &= mask - 1u) {
-                sum += area_reflected(receiver, (word << 5) + uint(findLSB(mask)));
-            }
-        }
-    } else {
-        for (uint i = draw.lights.x; i < draw.lights.y; ++i) sum += area_reflected(receiver, i);
+    uint end = (draw.lights.y + 31u) >> 5;
+    for (uint word = draw.lights.x >> 5; word < end; ++word) {
+        // Of the words at both ends, the lights of this draw.
+        uint first = word == draw.lights.x >> 5 ? draw.lights.x & 31u : 0u;
+        uint last = min(draw.lights.y - (word << 5), 32u) - 1u;
+        uint lights = (0xffffffffu << first) & (0xffffffffu >> (31u - last));
+        if (LIGHT_MASKS) lights &= area_mask(cluster, word);
+        sum += word_reflected(receiver, word << 5, lights);
     }
     radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

@@ -3,15 +3,14 @@
 //   a light small against the lobe   cubature at points of the light's surface, which come with it
 //   Lambert                          the form factor
 //   a lobe that a transformed cosine fits within light_error   the form factor in the lobe's own coordinates
-//   any other                        quadrature in these coordinates (lib/area/quadrature.glsl)
+//   any other                        quadrature in these coordinates (direct/quadrature.glsl)
 #ifndef DIRECT_ESTIMATE_GLSL
 #define DIRECT_ESTIMATE_GLSL
 
 #include "direct/receiver.glsl"
 #include "direct/source.glsl"
 #include "direct/closed_form.glsl"
-#include "lib/area/outline.glsl"
-#include "lib/area/strip.glsl"
+#include "direct/quadrature.glsl"
 #include "direct/pick.glsl"
 
 // Between these ratios of a light's size to a lobe's width the cubature gives way; below the first of all, four points do.
@@ -41,22 +40,7 @@ vec3 lobe_by_quadrature(Receiver r, Source source, Outline outline, Proxy proxy,
     if (!outline.elliptic && hard) seen.nodes = hardest ? 12u : 8u;
     // All around an ellipse the nodes are evenly spaced, as many as wanted.
     if (outline.elliptic && seen.azimuths.circle && hardest) seen.nodes = 24u;
-    uint radial_nodes = hard ? 4u : 2u;
-    vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < seen.azimuths.panels * seen.nodes; ++k) {
-        vec2 azimuth = outline_azimuth(outline, seen, k);
-        vec2 e = vec2(cos(azimuth.x), sin(azimuth.x));
-        vec2 interval = outline_interval(outline, seen, proxy, e);
-        if (!(interval.y > interval.x)) continue;
-        for (uint j = 0u; j < radial_nodes; ++j) {
-            vec2 radial = gauss(radial_nodes, j);
-            Point point = interval_point(proxy, e, interval, radial.x, radial.y * azimuth.y);
-            vec3 f_cos = bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
-            if (source_textured(source)) f_cos *= source_texture(source, point.wi, point.weight);
-            sum += point.weight * f_cos;
-        }
-    }
-    return sum;
+    return outline_quadrature(r, source, outline, seen, proxy, lobe, hard ? 4u : 2u);
 }
 
 // One convex piece of the light.
@@ -115,32 +99,15 @@ void over_polygon(inout Estimate sum, Receiver r, Source source, vec3 share) {
     }
 }
 
-vec3 lobe_by_strip(Receiver r, Strip strip, Proxy proxy, uint lobe) {
-    StripImage image = strip_image(strip, proxy);
-    float width = image.longitudes.y - image.longitudes.x;
-    uint latitudes = ANISOTROPIC ? 12u : 8u;
-    uint meridians = ANISOTROPIC ? 8u : abs(width) < 0.1 ? 2u : 4u;
-    vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < meridians; ++k) {
-        vec2 node = gauss(meridians, k);
-        Meridian meridian = strip_meridian(image, image.longitudes.x + node.x * width);
-        for (uint j = 0u; j < latitudes; ++j) {
-            vec2 along = gauss(latitudes, j);
-            Point point = meridian_point(proxy, image, meridian, along.x, abs(width) * node.y * along.y);
-            sum += point.weight * bsdf_eval_lobe_cos(r.surface.bsdf, point.wi, lobe);
-        }
-    }
-    return sum;
-}
-
 void over_strip(inout Estimate sum, Receiver r, Source source, vec3 share) {
     Strip strip = strip_of_line(source.center, source.u, source.light.radius);
     if (!strip.seen) return;
+    uvec2 nodes = ANISOTROPIC ? uvec2(8u, 12u) : uvec2(4u, 8u);
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {
         if (!bsdf_has(lobe)) continue;
         Proxy proxy = receiver_proxy(r, lobe);
         if (share[lobe] > 0.0 && !(lambert() && lobe == LOBE_DIFFUSE)) {
-            sum.lobes[lobe] += share[lobe] * source.light.radiance * lobe_by_strip(r, strip, proxy, lobe);
+            sum.lobes[lobe] += share[lobe] * source.light.radiance * strip_quadrature(r, strip, proxy, lobe, nodes);
         }
         if (SHADOWS) pick_over_strip(sum.picks[lobe], r, strip, proxy, lobe);
     }
@@ -175,29 +142,58 @@ vec3 by_closed_form(inout Estimate sum, Receiver r, Source source, vec3 share) {
     return share;
 }
 
-// Radiance towards the viewer from one area light.
-vec3 area_reflected(Receiver r, uint index) {
-    Source source = source_of(area_light(index), r.surface);
-    if (!source_shines(source)) return vec3(0.0);
-    vec3 ratio = source.size / vec3(r.diffuse.width, r.specular.width, r.coat.width);
+// How much of each lobe points of the light's surface cannot give; 0 of a lobe that the model has not.
+vec3 beyond_points(Receiver r, Source source) {
+    float size = source.size;
     // Points count the part above the horizon in sixteenths; the outline is cut there.
-    if (source.cut) ratio *= CUT;
-    if (LINES && source.light.kind == AREA_LINE) ratio *= THIN;
-    vec3 share = smoothstep(vec3(SMALL), vec3(LARGE), ratio);
+    if (source.cut) size *= CUT;
+    if (LINES && source.light.kind == AREA_LINE) size *= THIN;
+    vec3 share = vec3(0.0);
+    if (bsdf_has(LOBE_DIFFUSE)) share.x = smoothstep(SMALL, LARGE, size / r.diffuse.width);
+    if (bsdf_has(LOBE_SPECULAR)) share.y = smoothstep(SMALL, LARGE, size / r.specular.width);
+    if (bsdf_has(LOBE_COAT)) share.z = smoothstep(SMALL, LARGE, size / r.coat.width);
+    return share;
+}
+
+Estimate estimate_begin(uint index) {
     Estimate sum;
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {
         sum.lobes[lobe] = vec3(0.0);
         if (SHADOWS) sum.picks[lobe] = pick_begin(index, lobe);
     }
-    if (any(lessThan(share, vec3(1.0)))) by_cubature(sum, r, source, 1.0 - share);
-    share = by_closed_form(sum, r, source, share);
-    if (SHADOWS || any(greaterThan(share, vec3(0.0)))) over_shape(sum, r, source, share);
+    return sum;
+}
+
+vec3 estimate_end(Estimate sum, Receiver r, Source source) {
     vec3 reflected = vec3(0.0);
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {
         if (!bsdf_has(lobe)) continue;
         reflected += sum.lobes[lobe] * (SHADOWS ? pick_visibility(sum.picks[lobe], r, source) : 1.0);
     }
     return reflected;
+}
+
+// Radiance towards the viewer from one area light.
+vec3 area_reflected(Receiver r, uint index) {
+    Source source = source_of(area_light(index), r.surface);
+    if (!source_shines(source)) return vec3(0.0);
+    vec3 share = beyond_points(r, source);
+    Estimate sum = estimate_begin(index);
+    if (any(lessThan(share, vec3(1.0)))) by_cubature(sum, r, source, 1.0 - share);
+    share = by_closed_form(sum, r, source, share);
+    if (SHADOWS || any(greaterThan(share, vec3(0.0)))) over_shape(sum, r, source, share);
+    return estimate_end(sum, r, source);
+}
+
+// The same of a light that is small against all lobes, and whether it is.
+bool small_reflected(inout vec3 sum, Receiver r, uint index) {
+    Source source = source_of(area_light(index), r.surface);
+    if (!source_shines(source)) return true;
+    if (any(greaterThan(beyond_points(r, source), vec3(0.0)))) return false;
+    Estimate points = estimate_begin(index);
+    by_cubature(points, r, source, vec3(1.0));
+    sum += estimate_end(points, r, source);
+    return true;
 }
 
 #endif

@@ -1,6 +1,6 @@
 // Times and judges ways to light a surface by one area light: those that ship, from glsl/direct/ unchanged, and others to
-// hold against them. A row is a surface and its lights; all invocations of a workgroup share it, as neighbouring pixels
-// nearly do, and differ in their random numbers only.
+// hold against them. A row is a surface and its lights; where time counts all invocations of a workgroup share it, as
+// neighbouring pixels nearly do, and differ in their random numbers only.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -18,6 +18,7 @@ layout(constant_id = 7) const bool LOBE_METALLIC = false;
 // Which way, TIER_*, and how many points it takes, or which error in thousandths it may make.
 layout(constant_id = 40) const uint TIER = TIER_NONE;
 layout(constant_id = 41) const uint TIER_POINTS = 1u;
+layout(constant_id = 42) const uint TIER_INVOCATIONS = LINEAR_GROUP;
 
 #include "lib/bsdf.glsl"
 
@@ -103,7 +104,8 @@ vec3 by_tier(Receiver r, uint light, uint seed) {
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    row = rows[i / LINEAR_GROUP];
+    if (i >= TIER_INVOCATIONS * rows.length()) return;
+    row = rows[i / TIER_INVOCATIONS];
     frame.sample_index = 0u;
     frame.light_error = 1e-3 * float(TIER_POINTS);
     Receiver r = receiver_here();

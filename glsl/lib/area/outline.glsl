@@ -63,12 +63,13 @@ vec2 outline_azimuth(Outline outline, Seen seen, uint k) {
     uint panel = k / seen.nodes;
     float begin = seen.azimuths.edges[panel];
     float extent = seen.azimuths.edges[panel + 1u] - begin;
-    vec2 node = gauss(seen.nodes, k - panel * seen.nodes);
-    if (ELLIPSES && outline.elliptic) {
-        // All around, equal steps of a periodic function; else what grows as a root at both ends is smooth in x.
+    // All around an ellipse, equal steps of a periodic function, as many as wanted.
+    bool even = ELLIPSES && outline.elliptic && seen.azimuths.circle;
+    vec2 node = even ? vec2(float(k) + 0.5, 1.0) / float(seen.nodes) : gauss(seen.nodes, k - panel * seen.nodes);
+    if (ELLIPSES && outline.elliptic && !even) {
+        // What grows as a root at both ends is smooth in x.
         float x = PI * node.x;
-        node = seen.azimuths.circle ? vec2(float(k) + 0.5, 1.0) / float(seen.nodes)
-                                    : vec2(0.5 - 0.5 * cos(x), 0.5 * PI * sin(x) * node.y);
+        node = vec2(0.5 - 0.5 * cos(x), 0.5 * PI * sin(x) * node.y);
     }
     return vec2(begin + node.x * extent, node.y * extent);
 }

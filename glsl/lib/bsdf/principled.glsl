@@ -30,13 +30,24 @@ float clearcoat_shadowing(float c) {
     return c + sqrt(CLEARCOAT_G_ALPHA2 + (1.0 - CLEARCOAT_G_ALPHA2) * sqr(c));
 }
 
+// The colour at luminance 1.
+vec3 principled_tint(vec3 color) {
+    float y = luminance(color);
+    return y > 0.0 ? color / y : vec3(1.0);
+}
+
+// Reflectance along the normal.
+vec3 principled_f0(BsdfParameters p) {
+    vec3 tint = lerp(vec3(1.0), principled_tint(p.color), p.specular_tint);
+    vec3 dielectric = sqr((p.eta - 1.0) / (p.eta + 1.0)) * tint;
+    return lerp(dielectric, p.color, LOBE_METALLIC ? p.metallic : 0.0);
+}
+
 Principled principled_setup(BsdfParameters p, vec3 wo) {
     float facing = faces_viewer(wo);
     float cos_o = max(wo.z, 0.0);
     float metallic = LOBE_METALLIC ? p.metallic : 0.0;
     float subsurface = LOBE_SUBSURFACE ? p.subsurface : 0.0;
-    float y = luminance(p.color);
-    vec3 tint = y > 0.0 ? p.color / y : vec3(1.0);
     vec3 albedo = (facing * (1.0 - metallic) * INV_PI) * p.color;
 
     Principled m;
@@ -46,12 +57,11 @@ Principled principled_setup(BsdfParameters p, vec3 wo) {
     m.roughness = p.roughness;
     m.diffuse = (1.0 - subsurface) * albedo;
     m.subsurface = (1.25 * subsurface) * albedo;
-    m.sheen = (facing * (1.0 - metallic) * p.sheen) * lerp(vec3(1.0), tint, p.sheen_tint);
+    m.sheen = (facing * (1.0 - metallic) * p.sheen) * lerp(vec3(1.0), principled_tint(p.color), p.sheen_tint);
 
     m.ggx = ggx_setup(p.alpha_x, p.alpha_y, wo);
     m.f90 = facing * m.ggx.norm / (cos_o + m.ggx.stretch_o);
-    vec3 dielectric = sqr((p.eta - 1.0) / (p.eta + 1.0)) * lerp(vec3(1.0), tint, p.specular_tint);
-    m.f0 = m.f90 * lerp(dielectric, p.color, metallic);
+    m.f0 = m.f90 * principled_f0(p);
 
     float a2 = sqr(lerp(0.1, 0.001, p.clearcoat_gloss));
     m.coat_alpha2 = a2;
