@@ -200,7 +200,7 @@ shared! {
         /// Random points in each lobe's coordinates.
         TIER_PROXY_SAMPLES = 7;
         /// Specialisation constant of the loops that measure the device's floors: `FLOOR_*`.
-        SPEC_FLOOR = 42;
+        SPEC_FLOOR = 43;
         /// No loop: to be subtracted.
         FLOOR_NOTHING = 0;
         /// Lights made up, not fetched.

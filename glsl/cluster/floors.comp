@@ -20,7 +20,7 @@ const bool LOBE_METALLIC = false;
 #include "lib/bsdf.glsl"
 
 // Which floor, FLOOR_*.
-layout(constant_id = 42) const uint FLOOR = FLOOR_NOTHING;
+layout(constant_id = 43) const uint FLOOR = FLOOR_NOTHING;
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(set = SET_frame, binding = FRAME_DEPTH) uniform texture2D depth_texture;

@@ -173,8 +173,6 @@ fn point(sweep: &Sweep, subject: &Subject) -> Result<Point> {
     let sum = |image: &HdrImage| image.pixels.iter().flatten().map(|&v| f64::from(v)).sum::<f64>();
     let pairs = frame.pairs()?;
     let [width, height] = scene.render.size;
-    let mean =
-        truth.pixels.iter().flatten().map(|&v| f64::from(v)).sum::<f64>() / truth.pixels.len() as f64 / 3.0;
     Ok(Point {
         sweep: sweep.name,
         setting: setting.value(scene),
