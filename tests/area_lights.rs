@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that panics fails")]
 
 use amas::Scene;
-use amas::area_lights::{AreaLights, AreaPoint};
+use amas::area_lights::{AreaLights, AreaPoint, MOST_VERTICES};
 use amas::scene::{AreaLight, AreaShape, Texels, Texture};
 use amas::shared::{AREA_RECORD_LOG2, AreaRecord};
 use glam::{DVec2, DVec3, Vec3, vec3};
@@ -71,7 +71,7 @@ fn outlines() -> Vec<(&'static str, AreaLight)> {
         ("64 corners", polygon(&[&circle(64, 1.0)])),
         ("L", polygon(&[l])),
         ("star", polygon(&[&star(7)])),
-        ("ring", polygon(&[&circle(32, 2.0), &circle(24, 1.5)])),
+        ("ring", polygon(&[&circle(20, 2.0), &circle(14, 1.5)])),
         ("windows", polygon(&[square, &a, &b, &c])),
         ("collinear", polygon(&[&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [0.0, 0.5]]])),
     ]
@@ -146,6 +146,30 @@ fn rings_wind_as_the_front_sees_them() {
     let lights = prepared(light(AreaShape::Rect { center, u, v }), vec![]);
     let facing = doubled(&rings(&lights)[0]) / 8.0;
     assert!((facing - u.as_dvec3().cross(v.as_dvec3())).length() < 1e-5);
+}
+
+/// A plate with 64 hexagonal holes is more than one record may hold: its parts tile it.
+#[test]
+fn outlines_of_many_corners_are_several_records() {
+    let hexagon =
+        |x: f32, y: f32| circle(6, 0.3).into_iter().map(|[a, b]| [a + x, b + y]).collect::<Vec<_>>();
+    let holes: Vec<_> = (0..64_u32).map(|i| hexagon((i % 8) as f32 - 3.5, (i / 8) as f32 - 3.5)).collect();
+    let plate: &[[f32; 2]] = &[[-4.0, -4.0], [4.0, -4.0], [4.0, 4.0], [-4.0, 4.0]];
+    let outline: Vec<_> = std::iter::once(plate).chain(holes.iter().map(Vec::as_slice)).collect();
+    let lights = prepared(polygon(&outline), vec![]);
+    assert!((5..40).contains(&lights.records.len()), "{}", lights.records.len());
+    let mut area = 0.0;
+    for record in &lights.records {
+        assert!(record.piece_count as usize <= MOST_VERTICES);
+        assert_eq!((record.ring_first, record.ring_count), (record.piece_first, record.piece_count));
+        let own = loops(&lights, record.piece_first, record.piece_count);
+        let own: f64 = own.iter().map(|piece| doubled(piece).z / 2.0).sum();
+        let whole = f64::from(lights.points[record.point_first as usize].weight);
+        assert!((whole / own - 1.0).abs() < 1e-6, "{whole} {own}");
+        area += own;
+    }
+    let hole = 1.5 * 3.0_f64.sqrt() * 0.3 * 0.3;
+    assert!((area / (64.0 - 64.0 * hole) - 1.0).abs() < 1e-6, "{area}");
 }
 
 /// Weights are positive and sum to the area; polynomials are integrated exactly up to the promised degree.

@@ -25,6 +25,8 @@ use std::collections::BTreeMap;
 
 /// Longest side of a texture: 16 bits.
 const LONGEST_SIDE: u32 = 65_535;
+/// Vertices of a record's pieces at most: all that a pixel may spend on them is within what one draw may.
+pub const MOST_VERTICES: usize = 92;
 /// Largest radiance and area that a shader multiplies without overflow.
 const LARGEST: f64 = 1e18;
 
@@ -42,7 +44,7 @@ pub struct AreaPoint {
 /// A scene's area lights; numbers in the records count from the beginning of each list.
 #[derive(Clone, Debug, Default)]
 pub struct AreaLights {
-    /// One a light, in the scene's order.
+    /// One a light, in the scene's order; then what else there is of lights that one record cannot hold.
     pub records: Vec<AreaRecord>,
     /// Position and 1 at the last vertex of a loop; counter-clockwise seen from the front, holes of rings clockwise.
     pub vertices: Vec<[f32; 4]>,
@@ -78,9 +80,23 @@ impl AreaLights {
             parts(light, texture.map(|(levels, _)| levels.as_slice()), origin.as_dvec3())
         };
         let parts: Vec<_> = scene.area_lights.par_iter().map(part).collect();
+        let heap = |light: &AreaLight| {
+            light.texture.and_then(|index| textures.get(&index)).map_or(0, |(_, first)| *first)
+        };
+        let mut rest = Vec::new();
         for (light, parts) in scene.area_lights.iter().zip(parts) {
-            let heap = light.texture.and_then(|index| textures.get(&index)).map_or(0, |(_, first)| *first);
-            lights.push(parts, heap);
+            let mut parts = parts.into_iter().map(|part| (part, heap(light)));
+            parts.by_ref().take(1).for_each(|(part, heap)| lights.push(part, heap));
+            rest.extend(parts);
+        }
+        rest.into_iter().for_each(|(part, heap)| lights.push(part, heap));
+        if lights.records.len() > shared::MAX_AREA_LIGHTS as usize {
+            let cause = format!(
+                "the area lights make {} parts of at most {MOST_VERTICES} vertices, more than {}",
+                lights.records.len(),
+                shared::MAX_AREA_LIGHTS
+            );
+            return Err(Error::usage(cause, "give them fewer corners and holes"));
         }
         Ok(lights)
     }
@@ -154,25 +170,51 @@ impl AreaLights {
     }
 }
 
-/// Everything of a light but where its texture lies.
-fn parts(light: &AreaLight, texture: Option<&[Level]>, origin: DVec3) -> Parts {
+/// Everything of a light but where its texture lies: one record, or several where its pieces have too many vertices.
+fn parts(light: &AreaLight, texture: Option<&[Level]>, origin: DVec3) -> Vec<Parts> {
     let plane = match &light.shape {
         AreaShape::Line { a, b, radius } => {
-            return line(light, [a.as_dvec3() - origin, b.as_dvec3() - origin], f64::from(*radius));
+            return vec![line(light, [a.as_dvec3() - origin, b.as_dvec3() - origin], f64::from(*radius))];
         }
         &AreaShape::Rect { center, u, v } => Plane::new([center, u, v], Outline::Parallelogram),
         &AreaShape::Disk { center, u, v } => Plane::new([center, u, v], Outline::Ellipse),
         AreaShape::Polygon { vertices, holes, uvs } => Plane::polygon(vertices, holes, uvs.as_deref()),
     };
-    let at = |st: DVec2| (plane.at(st) - origin).as_vec3();
     let pieces = pieces(&plane, light);
+    if pieces.iter().map(Vec::len).sum::<usize>() <= MOST_VERTICES {
+        return vec![flat(light, &plane, plane.rings(), pieces, texture, origin)];
+    }
+    // Disjoint pieces are lights of their own, and their light adds up.
+    let mut groups: Vec<Vec<Vec<DVec2>>> = vec![vec![]];
+    let mut vertices = 0;
+    for piece in pieces {
+        vertices += piece.len();
+        if vertices > MOST_VERTICES {
+            vertices = piece.len();
+            groups.push(vec![]);
+        }
+        groups.last_mut().into_iter().for_each(|group| group.push(piece.clone()));
+    }
+    groups.into_iter().map(|group| flat(light, &plane, group.clone(), group, texture, origin)).collect()
+}
+
+/// A light in a plane, by the rings of its outline and its convex pieces.
+fn flat(
+    light: &AreaLight,
+    plane: &Plane,
+    rings: Vec<Vec<DVec2>>,
+    pieces: Vec<Vec<DVec2>>,
+    texture: Option<&[Level]>,
+    origin: DVec3,
+) -> Parts {
+    let at = |st: DVec2| (plane.at(st) - origin).as_vec3();
     let triangles = triangles(&pieces);
-    let area = plane.scale() * cubature::area_of(&plane, &triangles);
+    let area = plane.scale() * cubature::area_of(plane, &triangles);
     let radiance = light.radiance.as_dvec3();
     let points = |choice| {
-        let nodes = cubature::flat(&plane, &triangles, choice);
+        let nodes = cubature::flat(plane, &triangles, choice);
         let means = match texture {
-            Some(levels) => filter::means(&plane, &triangles, &nodes, levels),
+            Some(levels) => filter::means(plane, &triangles, &nodes, levels),
             None => vec![DVec3::ONE; nodes.len()],
         };
         let point = |(node, mean): (&Node, DVec3)| point(at(node.st), area * node.share, radiance * mean);
@@ -201,7 +243,7 @@ fn parts(light: &AreaLight, texture: Option<&[Level]>, origin: DVec3) -> Parts {
     };
     Parts {
         record,
-        rings: loops(plane.rings()),
+        rings: loops(rings),
         pieces: loops(pieces),
         coarse: points(Choice::Coarse),
         fine: points(Choice::Fine),

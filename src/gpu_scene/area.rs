@@ -1,6 +1,6 @@
 //! Area lights on the device.
 
-use crate::area_lights::AreaLights;
+use crate::area_lights::{AreaLights, MOST_VERTICES};
 use crate::draws::Draw;
 use crate::error::Result;
 use crate::gpu::{DescriptorSet, Device, Format, Image, ImageDescription, Use};
@@ -13,10 +13,7 @@ const MAX_ITERATIONS: u32 = 60_000;
 
 /// Iterations that a light may take of a pixel: three lobes; of each vertex of its pieces, and one more where the horizon
 /// cuts, twelve azimuths; of each, up to nine planes and four points. A shadow is a ray and its candidates a lobe. Points
-/// of cubature are asked twice.
-///
-/// A light goes into one draw whole, so that one of more than some 95 vertices in its pieces may pass [`MAX_ITERATIONS`] by
-/// itself where it is hardest, in all its pieces and in all three lobes at once.
+/// of cubature are asked twice. [`MOST_VERTICES`] keep every light below [`MAX_ITERATIONS`].
 fn iterations(record: &AreaRecord, shadows: bool) -> u32 {
     let quadrature = 3 * (record.piece_count.max(4) * 5 / 4) * 12 * (9 + 4 + 1);
     let points = 2 * (record.points >> 16).max(record.points & 0xffff);
@@ -88,6 +85,7 @@ impl Area {
                 u32::from(lights.records.iter().any(flag(shared::AREA_TWO_SIDED))),
             ),
         ];
+        const { assert!(58_200 > 3 * (MOST_VERTICES * 5 / 4) * 12 * (9 + 4 + 1) + 2 * MOST_VERTICES) };
         let worst = lights.records.iter().map(|record| iterations(record, shadows)).max();
         let per_draw = (MAX_ITERATIONS / worst.unwrap_or(1)).max(1);
         Ok(Self { count: lights.records.len() as u32, per_draw, specialization, luminaires, texels: image })

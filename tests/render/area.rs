@@ -63,6 +63,32 @@ fn light_leaves_on_the_side_of_the_normal() {
     assert_close(&up("two_sided = true\n"), &down, 1.0, 1e-5);
 }
 
+/// A plate with 64 holes and the 64 plugs that fit them light as the plate without holes: lavapipe, which ends a shader's
+/// loops after 65,535 iterations, must not lose a part.
+#[test]
+fn a_light_of_hundreds_of_corners_is_whole() {
+    let room = "[render]\nsize = [12, 8]\n[[camera]]\nname = \"c\"\nposition = [0, 2, 5]\ntarget = [0, 0, 0]\n\
+        vertical_fov = 40\n[[material]]\nname = \"m\"\ntype = \"plastic\"\ndiffuse = [0.5, 0.5, 0.5]\nalpha = 0.2\n\
+        [[mesh]]\nshape = \"plane\"\nsize = 12\nmaterial = \"m\"\n";
+    let points = |[x, y]: [f64; 2], count: u32, radius: f64| -> Vec<[f64; 3]> {
+        let angle = |i| std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count);
+        (0..count).map(|i| [x + radius * angle(i).cos(), y + radius * angle(i).sin(), -1.5]).collect()
+    };
+    let light = |vertices: &[[f64; 3]], holes: &[Vec<[f64; 3]>]| {
+        format!(
+            "[[light]]\ntype = \"polygon\"\nvertices = {vertices:?}\nholes = {holes:?}\nradiance = [3, 3, 3]\nvisible = false\n"
+        )
+    };
+    let plugs: Vec<_> = (0..64)
+        .map(|i| points([f64::from(i % 8) * 0.25 - 0.875, f64::from(i / 8) * 0.25 + 0.325], 6, 0.1))
+        .collect();
+    let plate = [[-1.0, 0.2, -1.5], [1.0, 0.2, -1.5], [1.0, 2.2, -1.5], [-1.0, 2.2, -1.5]];
+    let parts: String = plugs.iter().map(|plug| light(plug, &[])).collect();
+    let whole = Rig::new(scene(&format!("{room}{}", light(&plate, &[])))).render();
+    let parts = Rig::new(scene(&format!("{room}{}{parts}", light(&plate, &plugs)))).render();
+    assert_close(&parts, &whole, 0.99, 2e-2);
+}
+
 /// A generated ceiling and walls of textured polygons that face all ways.
 fn hundred_polygons() -> Scene {
     let mut state = 5_u32;
