@@ -4,6 +4,7 @@ mod area;
 mod coincident;
 mod geometry;
 pub mod occluders;
+mod resolved;
 mod tables;
 mod textures;
 
@@ -24,6 +25,7 @@ use geometry::{Geometry, bounds, origin};
 use glam::Vec3;
 use occluders::Occluders;
 use rayon::prelude::*;
+use resolved::Resolved;
 use std::sync::Arc;
 use tables::Tables;
 use textures::Textures;
@@ -61,6 +63,10 @@ pub struct GpuScene {
     pub draws: Vec<Draw>,
     /// Distinct variants, sorted.
     pub variants: Vec<Variant>,
+    /// Which of them compute shades.
+    pub resolved: Resolved,
+    /// Constants of the materials.
+    pub records: Vec<MaterialRecord>,
     /// Point lights in device order.
     pub lights: LightTree,
     /// Area lights.
@@ -75,7 +81,7 @@ pub struct GpuScene {
     // What the sets refer to.
     _tables: Tables,
     _textures: Textures,
-    _records: Buffer<MaterialRecord>,
+    _record_buffer: Buffer<MaterialRecord>,
     _nodes: Image,
     _light_image: Image,
     _occluders: Occluders,
@@ -107,7 +113,7 @@ impl GpuScene {
         let light_image = light_image(device, &lights.lights)?;
         let nodes = node_image(device, &lights.nodes)?;
         let records: Vec<_> = scene.materials.iter().map(record).collect();
-        let records = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
+        let record_buffer = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
         let set = layout.allocate(shared::scene::SET, 1)?;
         set.get(0).image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
         set.get(0).image(shared::scene::SCENE_LIGHT_NODES, &nodes, Use::Texture);
@@ -122,7 +128,7 @@ impl GpuScene {
         let textures = Textures::new(device, scene)?;
         let materials = textures.bind(&layout, scene)?;
         for index in 0..scene.materials.len() {
-            materials.get(index).element(shared::material::MATERIAL_RECORD, &records, index);
+            materials.get(index).element(shared::material::MATERIAL_RECORD, &record_buffer, index);
         }
         Ok(Self {
             set,
@@ -130,6 +136,8 @@ impl GpuScene {
             vertices: Buffer::with(device, "vertices", BufferUse::Vertex, &geometry.vertices)?,
             triangles: Buffer::with(device, "triangles", BufferUse::Index, &geometry.triangles)?,
             draws: geometry.draws,
+            resolved: Resolved::new(&variants, records.len()),
+            records,
             variants,
             origin,
             bounds: bounds(&geometry.vertices),
@@ -138,7 +146,7 @@ impl GpuScene {
             layout,
             _tables: tables,
             _textures: textures,
-            _records: records,
+            _record_buffer: record_buffer,
             _nodes: nodes,
             _light_image: light_image,
             _occluders: occluders,
