@@ -208,8 +208,6 @@ shared! {
         TIER_PROXY_SAMPLES = 7;
         /// Invocations of a workgroup of the resolve.
         SPEC_LANES = 42;
-        /// Pixels that each of them shades.
-        SPEC_PIXELS = 43;
         /// The variant that the pipeline resolves.
         SPEC_RESOLVED = 44;
         /// Clusters note the variants of their pixels.

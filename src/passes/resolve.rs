@@ -10,12 +10,20 @@ use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
     Buffer, BufferUse, Commands, ComputePipeline, DescriptorSets, Device, Format, Image, ImageDescription,
-    PipelineLayout, Specialization, Use, shaders,
+    PipelineLayout, Shader, Specialization, Use, shaders,
 };
 use crate::gpu_scene::GpuScene;
 use crate::shared::{self, MaterialRecord, ResolveDispatch, TILE_PIXELS};
 use crate::targets::Targets;
 use std::sync::Arc;
+
+/// By pixels an invocation.
+const MANY: [Shader; shared::RESOLVE_PIXELS as usize] = [
+    shaders::RESOLVE_MANY_1_COMP,
+    shaders::RESOLVE_MANY_2_COMP,
+    shaders::RESOLVE_MANY_3_COMP,
+    shaders::RESOLVE_MANY_4_COMP,
+];
 
 /// Pipelines of the pass, and what only they read.
 pub struct Resolve {
@@ -46,9 +54,8 @@ impl Resolve {
                     .clone()
                     .with(shared::SPEC_PERSPECTIVE, u32::from(inputs.perspective))
                     .with(shared::SPEC_LANES, lanes)
-                    .with(shared::SPEC_PIXELS, pixels)
                     .with(shared::SPEC_RESOLVED, index);
-                ComputePipeline::new(device, &layout, shaders::RESOLVE_MANY_COMP, &specialization)
+                ComputePipeline::new(device, &layout, MANY[pixels as usize - 1], &specialization)
             });
             pipelines.collect::<Result<_>>()
         });
@@ -74,6 +81,35 @@ impl Resolve {
         self.work = work(device, scene, clusters)?;
         self.set.get(0).buffer(shared::resolve::RESOLVE_WORK, &self.work);
         Ok(())
+    }
+
+    #[allow(missing_docs)]
+    pub fn profile(&self, device: &Arc<Device>, view: &View<'_>) {
+        let sets = [view.frame, view.scene.set.get(0), self.set.get(0)];
+        let time = |f: &dyn Fn(&mut Commands)| {
+            let mut all: Vec<f64> = (0..5).map(|_| {
+                let t = cpu_time::ProcessTime::now();
+                device.run("p", |cmd| { f(cmd); Ok(()) }).unwrap();
+                t.elapsed().as_secs_f64() * 1e3
+            }).collect();
+            all.sort_by(f64::total_cmp);
+            all[2]
+        };
+        println!("gather {:.2}", time(&|cmd| {
+            cmd.bind_compute(&self.gather, &sets);
+            cmd.dispatch([self.many.len() as u32, 1, 1]);
+        }));
+        let words = self.work.fetch(Use::ComputeWrite).unwrap();
+        for (variant, pipelines) in self.many.iter().enumerate() {
+            for (pixels, pipeline) in pipelines.iter().enumerate() {
+                let dispatch = variant * shared::RESOLVE_PIXELS as usize + pixels;
+                let ms = time(&|cmd| {
+                    cmd.bind_compute(pipeline, &sets);
+                    cmd.dispatch_indirect_at(&self.work, dispatch * size_of::<ResolveDispatch>());
+                });
+                println!("variant {variant} {:?} pixels {} count {} ms {ms:.2}", &view.scene.resolved.specializations[variant].values()[..1], pixels + 1, words[dispatch * 5 + 4]);
+            }
+        }
     }
 
     /// Adds every listed light.

@@ -1,10 +1,5 @@
 // The many lights of each cluster, for all of its pixels that have one variant: what glsl/indirect/many.frag does, in the
 // same order, but a light that is fetched serves PIXELS pixels of an invocation.
-#version 450
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_samplerless_texture_functions : require
-#extension GL_EXT_control_flow_attributes : require
-#include "shared.glsl"
 #include "bind/frame.glsl"
 #include "lib/cluster.glsl"
 #include "bind/lists.glsl"
@@ -14,13 +9,22 @@
 #include "bind/surface.glsl"
 
 layout(local_size_x_id = 42) in;
-layout(constant_id = 43) const uint PIXELS = RESOLVE_PIXELS;
 layout(constant_id = 44) const uint RESOLVED = 0u;
 layout(set = SET_resolve, binding = RESOLVE_HDR, rgba32f) uniform image2D hdr;
 layout(set = SET_resolve, binding = RESOLVE_WORK, std430) readonly buffer WorkBlock {
     ResolveDispatch dispatches[RESOLVE_VARIANTS * RESOLVE_PIXELS];
     uint entries[];
 };
+
+#if PIXELS == 1
+#define EACH(STEP) STEP(0u)
+#elif PIXELS == 2
+#define EACH(STEP) STEP(0u) STEP(1u)
+#elif PIXELS == 3
+#define EACH(STEP) STEP(0u) STEP(1u) STEP(2u)
+#else
+#define EACH(STEP) STEP(0u) STEP(1u) STEP(2u) STEP(3u)
+#endif
 
 // Number of the n-th bit that is set.
 uint nth_bit(uvec2 bits, uint n) {
@@ -55,32 +59,35 @@ void main() {
     }
     ivec2 corner = ivec2(tile % frame.tiles.x, tile / frame.tiles.x) * int(TILE_SIZE);
 
-    ivec2 pixels[RESOLVE_PIXELS];
-    bool mine[RESOLVE_PIXELS];
-    Surface surfaces[RESOLVE_PIXELS];
-    vec3 sums[RESOLVE_PIXELS];
-    [[unroll]] for (uint i = 0u; i < PIXELS; ++i) {
-        uint index = begin + i * gl_WorkGroupSize.x;
-        uint bit = nth_bit(bits, min(index, count - 1u));
-        pixels[i] = corner + ivec2(bit % TILE_SIZE, bit / TILE_SIZE);
-        uint variant = at_pixel(pixels[i]);
-        mine[i] = index < count && variant == RESOLVED + 1u;
-        surfaces[i] = surface_here();
-        sums[i] = vec3(0.0);
+    ivec2 pixels[PIXELS];
+    bool mine[PIXELS];
+    Surface surfaces[PIXELS];
+    vec3 sums[PIXELS];
+#define SET_UP(i) { \
+        uint index = begin + i * gl_WorkGroupSize.x; \
+        uint bit = nth_bit(bits, min(index, count - 1u)); \
+        pixels[i] = corner + ivec2(bit % TILE_SIZE, bit / TILE_SIZE); \
+        uint variant = at_pixel(pixels[i]); \
+        mine[i] = index < count && variant == RESOLVED + 1u; \
+        surfaces[i] = surface_here(); \
+        sums[i] = vec3(0.0); \
     }
+    EACH(SET_UP)
     LightList list = list_of(id);
     uint end = list.texel + (list.count + 3u) / 4u;
     for (uint texel = list.texel; texel < end; ++texel) {
         uvec4 four = list_indices(texel);
         for (uint k = 0u; k < 4u; ++k) {
-            vec4 place = light_place(four[k]);
-            vec4 power = light_power(four[k]);
-            [[unroll]] for (uint i = 0u; i < PIXELS; ++i) sums[i] += reflected(surfaces[i], place, power);
+            uint light = k == 0u ? four.x : k == 1u ? four.y : k == 2u ? four.z : four.w;
+            vec4 place = light_place(light);
+            vec4 power = light_power(light);
+#define LIGHT(i) sums[i] += reflected(surfaces[i], place, power);
+            EACH(LIGHT)
         }
     }
-    [[unroll]] for (uint i = 0u; i < PIXELS; ++i) {
-        if (!mine[i]) continue;
-        vec4 radiance = vec4(min(sums[i], MAX_RADIANCE), 1.0);
-        imageStore(hdr, pixels[i], imageLoad(hdr, pixels[i]) + radiance);
+#define STORE(i) if (mine[i]) { \
+        vec4 radiance = vec4(min(sums[i], MAX_RADIANCE), 1.0); \
+        imageStore(hdr, pixels[i], imageLoad(hdr, pixels[i]) + radiance); \
     }
+    EACH(STORE)
 }
