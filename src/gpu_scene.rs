@@ -115,7 +115,7 @@ impl GpuScene {
         let records: Vec<_> = scene.materials.iter().map(record).collect();
         let record_buffer = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
         let set = layout.allocate(shared::scene::SET, 1)?;
-        set.get(0).image(shared::scene::SCENE_LIGHTS, &light_image, Use::Texture);
+        set.get(0).image(shared::scene::SCENE_LIGHTS, &light_image, Use::ComputeWrite);
         set.get(0).image(shared::scene::SCENE_LIGHT_NODES, &nodes, Use::Texture);
         // Where shadows are not asked for, or nothing casts any, nothing hides anything.
         let shadows = scene.render.shadows && !scene.area_lights.is_empty();
@@ -272,10 +272,10 @@ fn light_image(device: &Arc<Device>, lights: &[PointLight]) -> Result<Image> {
             size: [2 * shared::LIGHTS_PER_ROW, height as u32],
             layers: Some(layers as u32),
             mips: 1,
-            uses: &[Use::TransferWrite, Use::Texture],
+            uses: &[Use::TransferWrite, Use::ComputeWrite],
         },
     )?;
-    image.upload(&[&texels], Use::Texture)?;
+    image.upload(&[&texels], Use::ComputeWrite)?;
     Ok(image)
 }
 

@@ -221,11 +221,11 @@ shared! {
             /// Depth of the prepass.
             FRAME_DEPTH = 1: Sampled;
             /// Cluster id per pixel, as written.
-            FRAME_CLUSTER_IDS_OUT = 2: StorageImage;
+            FRAME_CLUSTER_IDS_OUT = 2: StorageImage in Compute;
             /// Cluster id per pixel, as read.
             FRAME_CLUSTER_IDS = 3: Sampled;
             /// Light lists, as written.
-            FRAME_LISTS_OUT = 4: StorageImage;
+            FRAME_LISTS_OUT = 4: StorageImage in Compute;
             /// Light lists, as read: four indices a texel.
             FRAME_LISTS = 5: Sampled;
             /// [`Tile`](super::Tile) per tile.
@@ -243,7 +243,7 @@ shared! {
         /// Descriptors of a scene.
         scene = 1 {
             /// Lights, two texels each.
-            SCENE_LIGHTS = 0: Sampled;
+            SCENE_LIGHTS = 0: StorageImage;
             /// [`LightNode`](super::LightNode)s in depth-first order, two texels each.
             SCENE_LIGHT_NODES = 1: Sampled;
             /// What hides lights: a [`BvhHeader`](super::BvhHeader), [`BvhNode`](super::BvhNode)s in depth-first order,

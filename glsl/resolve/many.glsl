@@ -10,6 +10,8 @@
 
 layout(local_size_x_id = 42) in;
 layout(constant_id = 44) const uint RESOLVED = 0u;
+// Read as an image too, for the reason given at the lights.
+layout(set = SET_frame, binding = FRAME_LISTS_OUT, rgba32ui) readonly uniform uimage2DArray list_image;
 layout(set = SET_resolve, binding = RESOLVE_HDR, rgba32f) uniform image2D hdr;
 layout(set = SET_resolve, binding = RESOLVE_WORK, std430) readonly buffer WorkBlock {
     ResolveDispatch dispatches[RESOLVE_VARIANTS * RESOLVE_PIXELS];
@@ -76,7 +78,7 @@ void main() {
     LightList list = list_of(id);
     uint end = list.texel + (list.count + 3u) / 4u;
     for (uint texel = list.texel; texel < end; ++texel) {
-        uvec4 four = list_indices(texel);
+        uvec4 four = imageLoad(list_image, list_texel(texel));
         for (uint k = 0u; k < 4u; ++k) {
             uint light = k == 0u ? four.x : k == 1u ? four.y : k == 2u ? four.z : four.w;
             vec4 place = light_place(light);

@@ -87,18 +87,28 @@ impl Resolve {
     pub fn profile(&self, device: &Arc<Device>, view: &View<'_>) {
         let sets = [view.frame, view.scene.set.get(0), self.set.get(0)];
         let time = |f: &dyn Fn(&mut Commands)| {
-            let mut all: Vec<f64> = (0..5).map(|_| {
-                let t = cpu_time::ProcessTime::now();
-                device.run("p", |cmd| { f(cmd); Ok(()) }).unwrap();
-                t.elapsed().as_secs_f64() * 1e3
-            }).collect();
+            let mut all: Vec<f64> = (0..5)
+                .map(|_| {
+                    let t = cpu_time::ProcessTime::now();
+                    device
+                        .run("p", |cmd| {
+                            f(cmd);
+                            Ok(())
+                        })
+                        .unwrap();
+                    t.elapsed().as_secs_f64() * 1e3
+                })
+                .collect();
             all.sort_by(f64::total_cmp);
             all[2]
         };
-        println!("gather {:.2}", time(&|cmd| {
-            cmd.bind_compute(&self.gather, &sets);
-            cmd.dispatch([self.many.len() as u32, 1, 1]);
-        }));
+        println!(
+            "gather {:.2}",
+            time(&|cmd| {
+                cmd.bind_compute(&self.gather, &sets);
+                cmd.dispatch([self.many.len() as u32, 1, 1]);
+            })
+        );
         let words = self.work.fetch(Use::ComputeWrite).unwrap();
         for (variant, pipelines) in self.many.iter().enumerate() {
             for (pixels, pipeline) in pipelines.iter().enumerate() {
@@ -107,7 +117,12 @@ impl Resolve {
                     cmd.bind_compute(pipeline, &sets);
                     cmd.dispatch_indirect_at(&self.work, dispatch * size_of::<ResolveDispatch>());
                 });
-                println!("variant {variant} {:?} pixels {} count {} ms {ms:.2}", &view.scene.resolved.specializations[variant].values()[..1], pixels + 1, words[dispatch * 5 + 4]);
+                println!(
+                    "variant {variant} {:?} pixels {} count {} ms {ms:.2}",
+                    &view.scene.resolved.specializations[variant].values()[..1],
+                    pixels + 1,
+                    words[dispatch * 5 + 4]
+                );
             }
         }
     }
