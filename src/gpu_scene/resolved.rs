@@ -71,3 +71,43 @@ fn shading(variant: &Variant) -> Option<Specialization> {
     let kept = values.filter(|(id, _)| SHADING.contains(id));
     Some(kept.fold(Specialization::default(), |all, &(id, value)| all.with(id, value)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn variant(constants: &[(u32, u32)]) -> Variant {
+        let all = constants.iter().fold(Specialization::default(), |all, &(id, value)| all.with(id, value));
+        Variant { masked: false, both_sides: true, specialization: all }
+    }
+
+    #[test]
+    fn masks_and_culling_make_no_difference_but_textures_and_tangents_do() {
+        let [matte, plastic] = [0, 1].map(|model| (shared::SPEC_MODEL, model));
+        let variants = [
+            variant(&[matte]),
+            Variant { masked: true, both_sides: false, ..variant(&[matte, (MASK, 0)]) },
+            variant(&[plastic, (shared::SPEC_LTC_SPECULAR, 3), (shared::SPEC_ANISOTROPIC, 0)]),
+            variant(&[plastic, (shared::SPEC_ANISOTROPIC, 1)]),
+            variant(&[plastic, (shared::SPEC_SLOT, 0)]),
+        ];
+        let resolved = Resolved::new(&variants, 7);
+        assert_eq!(resolved.of_variant, [Some(0), Some(0), Some(1), None, None]);
+        assert_eq!(resolved.word(1, 5), 1 << 24 | 5);
+        assert_eq!(resolved.word(2, 6), 2 << 24 | 6);
+        assert_eq!(resolved.word(4, 6), 6, "variant 0: left to fragments");
+        assert!(!resolved.has_all() && Resolved::new(&variants[..3], 7).has_all());
+    }
+
+    /// A cluster has a bit for each variant, and a surface so many bits for its material.
+    #[test]
+    fn what_has_no_bit_is_left_to_fragments() {
+        let count = shared::RESOLVE_VARIANTS + 3;
+        let variants: Vec<_> = (0..count).map(|i| variant(&[(shared::SPEC_MODEL, i)])).collect();
+        let resolved = Resolved::new(&variants, 7);
+        assert_eq!(resolved.specializations.len() as u32, shared::RESOLVE_VARIANTS);
+        assert!(resolved.has(31) && !resolved.has(32) && !resolved.has(34));
+        assert_eq!(resolved.word(31, 0), 32 << 24);
+        assert!(!Resolved::new(&variants, (1 << 24) + 1).has(0));
+    }
+}
