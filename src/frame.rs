@@ -1,6 +1,6 @@
 //! The frame: its passes in order, and the barriers between them, top to bottom.
 //!
-//! prepass → cluster → forward (direct → indirect → present)
+//! prepass → cluster → resolve → forward (direct → indirect → present)
 
 mod results;
 mod settings;
@@ -17,7 +17,9 @@ use crate::gpu_scene::GpuScene;
 use crate::passes::cluster::{Capacity, ClusterPass, ClusterTargets};
 use crate::passes::forward::{Forward, Sample, Work};
 use crate::passes::prepass::Prepass;
+use crate::passes::resolve::Resolve;
 use crate::passes::{PassInputs, View};
+use crate::scene::settings::FrontEnd;
 use crate::shared::{self, Counters, FrameConstants};
 use crate::targets::Targets;
 use std::sync::Arc;
@@ -34,6 +36,7 @@ pub struct Frame {
     targets: Targets,
     prepass: Prepass,
     cluster: Option<ClusterPass>,
+    resolve: Option<Resolve>,
     forward: Forward,
     lists: ClusterTargets,
     constants: Buffer<FrameConstants>,
@@ -57,18 +60,20 @@ impl Frame {
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, scene: &Arc<GpuScene>, settings: FrameSettings) -> Result<Self> {
         let inputs = PassInputs { device, scene, perspective: settings.perspective };
-        let work = work(scene, &settings);
-        let targets = Targets::new(device, settings.size)?;
+        let work = work(device, scene, &settings);
+        let targets = Targets::new(device, settings.size, work.resolve)?;
         let tiles = tiles(settings.size);
         let pass_names = pass_names(work);
         let mask = if work.masks { work.area.div_ceil(shared::AREA_MASK_LIGHTS) } else { 0 };
+        let capacity = Capacity::start(tiles, mask);
         let frame = Self {
-            prepass: Prepass::new(&inputs, &targets)?,
+            prepass: Prepass::new(&inputs, &targets, work.resolve)?,
             cluster: clustered(work)
-                .then(|| ClusterPass::new(&inputs, work.lists, work.masks))
+                .then(|| ClusterPass::new(&inputs, work.lists, work.masks, work.resolve))
                 .transpose()?,
+            resolve: work.resolve.then(|| Resolve::new(&inputs, &targets, capacity.clusters)).transpose()?,
             forward: Forward::new(&inputs, &targets, work)?,
-            lists: ClusterTargets::new(device, tiles, Capacity::start(tiles, mask))?,
+            lists: ClusterTargets::new(device, tiles, capacity)?,
             constants: Buffer::new(device, "frame constants", BufferUse::Uniform, 1)?,
             set: scene.layout.allocate(shared::frame::SET, 1)?,
             readback: Buffer::new(device, "counters readback", BufferUse::Readback, 1)?,
@@ -131,6 +136,9 @@ impl Frame {
                 && let Some(capacity) = self.lists.capacity.grown(&self.counters)
             {
                 self.lists = ClusterTargets::new(&self.device, tiles(self.settings.size), capacity)?;
+                if let Some(resolve) = &mut self.resolve {
+                    resolve.grow(&self.device, &self.scene, capacity.clusters)?;
+                }
                 self.bind();
                 inputs.progress.dec(u64::from(index) + 1);
                 return Ok(None);
@@ -141,10 +149,12 @@ impl Frame {
 
     fn submit(&self, sample: Sample, split: bool, watch: &mut Stopwatch) -> Result<()> {
         type Record<'a> = &'a dyn Fn(&Frame, &mut Commands);
+        let resolve = |frame: &Self, cmd: &mut Commands| frame.record_resolve(cmd, sample);
         let forward = |frame: &Self, cmd: &mut Commands| frame.record_forward(cmd, sample);
-        let steps: [(usize, Record<'_>); 3] = [
+        let steps: [(usize, Record<'_>); 4] = [
             (1, &Self::record_prepass),
             (usize::from(self.cluster.is_some()), &Self::record_cluster),
+            (usize::from(self.resolve.is_some()), &resolve),
             (usize::MAX, &forward),
         ];
         if split {
@@ -182,8 +192,23 @@ impl Frame {
         cmd.timestamp(&self.timestamps, 2);
     }
 
+    fn record_resolve(&self, cmd: &mut Commands, sample: Sample) {
+        let Some(resolve) = &self.resolve else { return };
+        let hdr = &self.targets.hdr;
+        cmd.memory_barrier(Use::ComputeWrite, Use::ComputeRead);
+        if sample.first {
+            cmd.transition(hdr, Use::Nothing, Use::TransferWrite);
+            cmd.clear(hdr);
+            cmd.transition(hdr, Use::TransferWrite, Use::ComputeWrite);
+        } else {
+            cmd.transition(hdr, Use::TransferRead, Use::ComputeWrite);
+        }
+        resolve.record(cmd, &self.view());
+        cmd.timestamp(&self.timestamps, 3);
+    }
+
     fn record_forward(&self, cmd: &mut Commands, sample: Sample) {
-        let stamp = 2 + u32::from(self.cluster.is_some());
+        let stamp = 2 + u32::from(self.cluster.is_some()) + u32::from(self.resolve.is_some());
         self.forward.record(cmd, &self.view(), sample, (&self.timestamps, stamp));
         cmd.memory_barrier(Use::ComputeWrite, Use::TransferRead);
         cmd.copy_buffer(&self.lists.counters, &self.readback);
@@ -227,20 +252,30 @@ impl Frame {
         set.image(shared::frame::FRAME_CLUSTER_IDS_OUT, &self.targets.cluster_ids, Use::ComputeWrite);
         set.image(shared::frame::FRAME_CLUSTER_IDS, &self.targets.cluster_ids, Use::FragmentRead);
         set.image(shared::frame::FRAME_HDR, &self.targets.hdr, Use::InputRead);
+        set.image(shared::frame::FRAME_SURFACE, &self.targets.surface, Use::ComputeRead);
         self.lists.bind(set);
     }
 }
 
-fn work(scene: &GpuScene, settings: &FrameSettings) -> Work {
+fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
     let lights = &scene.lights;
     let drawn = !scene.draws.is_empty();
     let first_unranged = if settings.brute_force { 0 } else { lights.ranged };
+    let lists = drawn && first_unranged > 0;
+    let compute = match settings.front_end {
+        FrontEnd::Auto => device.is_cpu(),
+        FrontEnd::Fragment => false,
+        FrontEnd::Compute => true,
+    };
+    let resolve = lists && compute && !scene.resolved.specializations.is_empty();
     let area = if drawn { scene.area.count } else { 0 };
     Work {
         unranged: drawn && lights.lights.len() > first_unranged,
         first_unranged: first_unranged as u32,
         background: settings.background != [0.0; 3],
-        lists: drawn && first_unranged > 0,
+        lists,
+        resolve,
+        indirect: lists && !(resolve && scene.resolved.has_all()),
         area,
         masks: area > AREA_LIGHTS_WITHOUT_MASKS && !settings.brute_force,
         luminaires: !scene.area.luminaires.is_empty(),
@@ -256,8 +291,9 @@ fn pass_names(work: Work) -> Vec<&'static str> {
     let passes = [
         ("prepass", true),
         ("cluster", clustered(work)),
+        ("resolve", work.resolve),
         ("direct", true),
-        ("indirect", work.lists),
+        ("indirect", work.indirect),
         ("present", true),
     ];
     passes.into_iter().filter(|(_, recorded)| *recorded).map(|(name, _)| name).collect()

@@ -5,6 +5,7 @@ mod coincident;
 mod geometry;
 mod lights;
 pub mod occluders;
+mod resolved;
 mod tables;
 mod textures;
 
@@ -23,6 +24,7 @@ use glam::Vec3;
 use lights::{LightImages, placed};
 use occluders::Occluders;
 use rayon::prelude::*;
+use resolved::Resolved;
 use std::sync::Arc;
 use tables::Tables;
 use textures::Textures;
@@ -60,6 +62,10 @@ pub struct GpuScene {
     pub draws: Vec<Draw>,
     /// Distinct variants, sorted.
     pub variants: Vec<Variant>,
+    /// Which of them compute shades.
+    pub resolved: Resolved,
+    /// Constants of the materials.
+    pub records: Vec<MaterialRecord>,
     /// Point lights in device order, at time 0.
     pub lights: LightTree,
     /// Area lights.
@@ -77,7 +83,7 @@ pub struct GpuScene {
     // What the sets refer to.
     _tables: Tables,
     _textures: Textures,
-    _records: Buffer<MaterialRecord>,
+    _record_buffer: Buffer<MaterialRecord>,
     _occluders: Occluders,
 }
 
@@ -101,7 +107,7 @@ impl GpuScene {
         let lights = placed(scene, 0.0, origin);
         let light_images = LightImages::new(device, &lights)?;
         let records: Vec<_> = scene.materials.iter().map(record).collect();
-        let records = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
+        let record_buffer = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
         let set = layout.allocate(shared::scene::SET, 1)?;
         light_images.bind(set.get(0));
         // Where shadows are not asked for, or nothing casts any, nothing hides anything.
@@ -115,7 +121,7 @@ impl GpuScene {
         let textures = Textures::new(device, scene)?;
         let materials = textures.bind(&layout, scene)?;
         for index in 0..scene.materials.len() {
-            materials.get(index).element(shared::material::MATERIAL_RECORD, &records, index);
+            materials.get(index).element(shared::material::MATERIAL_RECORD, &record_buffer, index);
         }
         Ok(Self {
             set,
@@ -123,6 +129,8 @@ impl GpuScene {
             vertices: Buffer::with(device, "vertices", BufferUse::Vertex, &geometry.vertices)?,
             triangles: Buffer::with(device, "triangles", BufferUse::Index, &geometry.triangles)?,
             draws: geometry.draws,
+            resolved: Resolved::new(&variants, records.len()),
+            records,
             variants,
             origin,
             bounds: bounds(&geometry.vertices),
@@ -131,7 +139,7 @@ impl GpuScene {
             layout,
             _tables: tables,
             _textures: textures,
-            _records: records,
+            _record_buffer: record_buffer,
             moving: lights::moving(scene),
             light_images,
             _occluders: occluders,

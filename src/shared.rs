@@ -31,6 +31,19 @@ shared! {
         SCAN_GROUP = 256;
         /// Pixel without a surface in the image of cluster ids.
         NO_CLUSTER = 4294967295;
+        /// Bits of the material in the last word of a surface; the bits above them are 0 where compute shades nothing, else
+        /// 1 + the variant among those that it does.
+        SURFACE_MATERIAL_BITS = 24;
+        /// Variants that compute shades at most: one bit each.
+        RESOLVE_VARIANTS = 32;
+        /// Pixels that an invocation of the resolve shades at most.
+        RESOLVE_PIXELS = 4;
+        /// Set in a resolve's entry, a cluster's id: the second half of its pixels.
+        RESOLVE_SECOND = 2147483648;
+        /// log2 of the materials across the texture of their records.
+        MATERIALS_PER_ROW_LOG2 = 6;
+        /// log2 of the texels of a record.
+        MATERIAL_RECORD_LOG2 = 4;
         /// Lights across the light texture; each is two texels wide. A power of two.
         LIGHTS_PER_ROW = 512;
         /// log2 of it.
@@ -209,6 +222,12 @@ shared! {
         FLOOR_FETCH = 2;
         /// Lights fetched and reflected.
         FLOOR_BOTH = 3;
+        /// Invocations of a workgroup of the resolve.
+        SPEC_LANES = 46;
+        /// The variant that the pipeline resolves.
+        SPEC_RESOLVED = 44;
+        /// Clusters note the variants of their pixels.
+        SPEC_NOTE_VARIANTS = 45;
     }
     sets {
         /// Descriptors of a frame: targets and clusters.
@@ -218,11 +237,11 @@ shared! {
             /// Depth of the prepass.
             FRAME_DEPTH = 1: Sampled;
             /// Cluster id per pixel, as written.
-            FRAME_CLUSTER_IDS_OUT = 2: StorageImage;
+            FRAME_CLUSTER_IDS_OUT = 2: StorageImage in Compute;
             /// Cluster id per pixel, as read.
             FRAME_CLUSTER_IDS = 3: Sampled;
             /// Light lists, as written.
-            FRAME_LISTS_OUT = 4: StorageImage;
+            FRAME_LISTS_OUT = 4: StorageImage in Compute;
             /// Light lists, as read: four indices a texel.
             FRAME_LISTS = 5: Sampled;
             /// [`Tile`](super::Tile) per tile.
@@ -232,14 +251,15 @@ shared! {
             /// [`Counters`](super::Counters).
             FRAME_COUNTERS = 8: Storage;
             /// Scene-linear colour, read by the present subpass.
-            FRAME_HDR = 9: Input;
-            /// Pairs per tile: evaluated, useful.
-            FRAME_PAIRS = 10: Storage;
+            FRAME_HDR = 9: Input in Fragment;
+            /// What the prepass notes of each pixel's surface: the interpolated normal's bits; material and variant, see
+            /// `SURFACE_MATERIAL_BITS`. 0 where a light is seen, or nothing.
+            FRAME_SURFACE = 10: Sampled in Compute;
         }
         /// Descriptors of a scene.
         scene = 1 {
             /// Lights, two texels each.
-            SCENE_LIGHTS = 0: Sampled;
+            SCENE_LIGHTS = 0: StorageImage;
             /// [`LightNode`](super::LightNode)s in depth-first order, two texels each.
             SCENE_LIGHT_NODES = 1: Sampled;
             /// What hides lights: a [`BvhHeader`](super::BvhHeader), [`BvhNode`](super::BvhNode)s in depth-first order,
@@ -254,9 +274,23 @@ shared! {
         /// A material: its textures and constants.
         material = 2 {
             /// The material's textures; unused slots hold a white texel.
-            MATERIAL_SLOTS = 0: Combined[8];
+            MATERIAL_SLOTS = 0: Combined[8] in Fragment;
             /// Its [`MaterialRecord`](super::MaterialRecord).
-            MATERIAL_RECORD = 1: Uniform;
+            MATERIAL_RECORD = 1: Uniform in Fragment;
+        }
+        /// The resolve's own, in the place of a material's.
+        resolve = 2 {
+            /// [`ResolveDispatch`](super::ResolveDispatch) per variant and pixels an invocation, then the entries of all.
+            RESOLVE_WORK = 0: Storage in Compute;
+            /// [`MaterialRecord`](super::MaterialRecord)s.
+            RESOLVE_MATERIALS = 1: Sampled in Compute;
+            /// Scene-linear colour, added to.
+            RESOLVE_HDR = 2: StorageImage in Compute;
+        }
+        /// The accounting's own, in the place of a material's.
+        pairs = 2 {
+            /// [`TilePairs`](super::TilePairs) per tile.
+            PAIRS_TILES = 0: Storage in Compute;
         }
         /// Rows in, rows out: how tests call the library functions of the shaders.
         probe = 0 {
@@ -332,6 +366,8 @@ shared! {
             scale: float;
             /// Direct: first light to evaluate, and the one behind the last.
             lights: uvec2;
+            /// Prepass: last word of the surface.
+            surface: uint;
         }
         /// A tile's occupied slices.
         Tile {
@@ -352,6 +388,25 @@ shared! {
             upper: vec3;
             /// First texel of its list.
             list: uint;
+            /// A bit for each pixel of its tile that lies in it, row by row.
+            pixels: uvec2;
+            /// Its tile.
+            tile: uint;
+            /// A bit for each variant that the resolve finds in it.
+            variants: uint;
+        }
+        /// Work of one pipeline of the resolve; the first three words are an indirect dispatch.
+        ResolveDispatch {
+            /// Workgroups, at most `MAX_GROUPS` a row.
+            groups_x: uint;
+            /// Rows of them.
+            groups_y: uint;
+            /// 1.
+            groups_z: uint;
+            /// First of its entries: clusters, or halves of them.
+            first: uint;
+            /// How many.
+            count: uint;
         }
         /// What the cluster pass counts; the first three words are an indirect dispatch over clusters.
         Counters {

@@ -7,7 +7,7 @@
 #include "lib/cluster.glsl"
 #include "bind/lists.glsl"
 #include "bind/lights.glsl"
-#include "bind/textures.glsl"
+#include "bind/fragment.glsl"
 #include "lib/light.glsl"
 #include "bind/surface.glsl"
 

@@ -1,9 +1,10 @@
-// Set 1: the lights. Two RGBA32F texels a light, in Hilbert order, lights with a range first. A texture, not a
-// storage buffer: lavapipe vectorises texel fetches (5.8 against 9.1 CPU-ns a pair).
+// Set 1: the lights. Two RGBA32F texels a light, in Hilbert order, lights with a range first. An image, not a storage
+// buffer, which lavapipe reads lane by lane; and not a texture: of a texelFetch it computes the mip level's size and place
+// for each lane, 150 instructions instead of 60 (light_grid: cluster 75 → 46, fragment shading 165 → 111 CPU ms).
 #ifndef BIND_LIGHTS_GLSL
 #define BIND_LIGHTS_GLSL
 
-layout(set = SET_scene, binding = SCENE_LIGHTS) uniform texture2DArray scene_lights;
+layout(set = SET_scene, binding = SCENE_LIGHTS, rgba32f) readonly uniform image2DArray scene_lights;
 
 ivec3 light_texel(uint index) {
     return ivec3(
@@ -13,9 +14,9 @@ ivec3 light_texel(uint index) {
 }
 
 // xyz position, w 1/range² (0 without a range).
-vec4 light_place(uint index) { return texelFetch(scene_lights, light_texel(index), 0); }
+vec4 light_place(uint index) { return imageLoad(scene_lights, light_texel(index)); }
 
 // rgb radiant intensity, w the floor of d².
-vec4 light_power(uint index) { return texelFetch(scene_lights, light_texel(index) + ivec3(1, 0, 0), 0); }
+vec4 light_power(uint index) { return imageLoad(scene_lights, light_texel(index) + ivec3(1, 0, 0)); }
 
 #endif

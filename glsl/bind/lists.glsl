@@ -15,14 +15,15 @@ struct LightList {
 // round to another slice.
 uint cluster_at(ivec2 pixel) { return texelFetch(cluster_ids, pixel, 0).r; }
 
-LightList list_at(ivec2 pixel) {
-    uint id = cluster_at(pixel);
+LightList list_of(uint id) {
     // Past the capacity the frame is rendered again with more room; until then nothing out of bounds is read.
     if (id >= frame.cluster_capacity) return LightList(0u, 0u);
     uint count = min(clusters[id].reaching, frame.max_list);
     uint texel = clusters[id].list;
     return LightList(texel, texel + (count + 3u) / 4u <= frame.list_capacity ? count : 0u);
 }
+
+LightList list_at(ivec2 pixel) { return list_of(cluster_at(pixel)); }
 
 // Four indices of a list; past its end they name the null light.
 uvec4 list_indices(uint texel) { return texelFetch(light_lists, list_texel(texel), 0); }

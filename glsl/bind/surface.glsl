@@ -1,10 +1,9 @@
-// The shaded surface: interpolated attributes, the material's parameters and its BSDF in the local frame.
+// The shaded surface: its place and frame, the material's parameters and its BSDF in that frame. Both front ends shade by
+// this file; what it asks of them, the including shader takes before this line from
+//   bind/fragment.glsl   the surface under a fragment, or
+//   bind/pixel.glsl      the surface of any pixel, from what the prepass noted of it.
 #ifndef BIND_SURFACE_GLSL
 #define BIND_SURFACE_GLSL
-
-// A uniform block of its own: lavapipe reads storage buffers lane by lane.
-layout(set = SET_material, binding = MATERIAL_RECORD, std140) uniform MaterialBlock { MaterialRecord material; };
-layout(push_constant, std430) uniform PushBlock { DrawConstants draw; };
 
 layout(constant_id = 0) const uint MODEL = MODEL_MATTE;
 layout(constant_id = 1) const bool ANISOTROPIC = false;
@@ -17,10 +16,6 @@ layout(constant_id = 7) const bool LOBE_METALLIC = false;
 layout(constant_id = 8) const bool TWO_SIDED = true;
 layout(constant_id = 9) const bool PERSPECTIVE = true;
 
-layout(location = 1) in vec3 in_normal;
-layout(location = 2) in vec4 in_tangent;
-layout(location = 3) in vec2 in_uv;
-
 #include "lib/bsdf.glsl"
 #include "lib/cluster.glsl"
 
@@ -32,11 +27,6 @@ struct Surface {
     mat3 world_from_local;  // columns: tangent, bitangent, normal
     Bsdf bsdf;
 };
-
-vec3 parameter(uint row, uint slot) {
-    if (slot != NO_TEXTURE) return sample_slot(slot, in_uv).rgb;
-    return material.rows[row].xyz;
-}
 
 vec3 any_tangent(vec3 n) {
     float s = n.z < 0.0 ? -1.0 : 1.0;  // Duff et al. 2017
@@ -61,14 +51,20 @@ vec3 facing(vec3 n, vec3 wo) {
 
 // Tangent, bitangent, normal. A two-sided surface's interpolated normal is turned to the viewer by its own cosine,
 // not by the triangle's facing: at the silhouette of a smooth mesh the two differ, and a normal turned away would
-// leave a black rim. A normal map is applied on the front and turned with it.
+// leave a black rim. A normal map is applied on the front and turned with it. Round lobes look alike in any frame: for
+// them the tangent is not fetched.
 mat3 shading_frame(vec3 wo) {
     // Normals that cancel between vertices have no direction.
     vec3 n = dot(in_normal, in_normal) > 1e-20 ? normalize(in_normal) : vec3(0.0, 1.0, 0.0);
     float turn = TWO_SIDED && dot(n, wo) < 0.0 ? -1.0 : 1.0;
+    if (!ANISOTROPIC && SLOT_NORMAL == NO_TEXTURE) {
+        n *= turn;
+        vec3 t = any_tangent(n);
+        return mat3(t, cross(n, t), n);
+    }
     vec3 t = tangent_to(n, in_tangent.xyz);
     if (SLOT_NORMAL != NO_TEXTURE) {
-        vec3 m = sample_slot(SLOT_NORMAL, in_uv).xyz * 2.0 - 1.0;
+        vec3 m = normal_texel() * 2.0 - 1.0;
         float handed = in_tangent.w < 0.0 ? -1.0 : 1.0;
         vec3 mapped = m.x * t + m.y * handed * cross(n, t) + m.z * n;
         if (dot(mapped, mapped) > 1e-12 && dot(in_tangent.xyz, in_tangent.xyz) > 0.0) {
@@ -116,7 +112,8 @@ BsdfParameters surface_parameters() {
 // World position of the surface at the pixel's centre, from the depth that the fragment has: the cluster pass bounds the
 // same points. A device that snaps vertices to few subpixel positions moves interpolated ones along the surface.
 vec3 surface_position() {
-    return world_position(frame, gl_FragCoord.xy, view_depth(frame, gl_FragCoord.z));
+    vec3 window = window_position();
+    return world_position(frame, window.xy, view_depth(frame, window.z));
 }
 
 // Towards the viewer, world.
@@ -131,15 +128,15 @@ Surface surface_here() {
     return s;
 }
 
-// Radiance towards the viewer from one point light.
-vec3 reflected(Surface s, uint light) {
-    vec4 place = light_place(light);
-    vec4 power = light_power(light);
+// Radiance towards the viewer from one point light, by its two texels.
+vec3 reflected(Surface s, vec4 place, vec4 power) {
     vec3 to_light = place.xyz - s.position;
     float d2 = dot(to_light, to_light);
     // A light on the surface has no direction: wi = 0, which every BSDF answers with 0.
     vec3 wi = (to_light * inversesqrt(max(d2, 1e-30))) * s.world_from_local;
     return bsdf_eval_cos(s.bsdf, wi) * (power.rgb * falloff(d2, place.w, power.w));
 }
+
+vec3 reflected(Surface s, uint light) { return reflected(s, light_place(light), light_power(light)); }
 
 #endif

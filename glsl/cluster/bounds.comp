@@ -9,9 +9,13 @@
 
 layout(local_size_x = TILE_SIZE) in;
 layout(set = SET_frame, binding = FRAME_DEPTH) uniform texture2D depth_texture;
+layout(set = SET_frame, binding = FRAME_SURFACE) uniform utexture2D surface_texture;
 layout(set = SET_frame, binding = FRAME_CLUSTER_IDS_OUT, r32ui) writeonly uniform uimage2D cluster_ids;
 layout(set = SET_frame, binding = FRAME_TILES, std430) readonly buffer TileBlock { Tile tiles[]; };
 layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) writeonly buffer ClusterBlock { Cluster clusters[]; };
+
+// Whether the resolve asks which variants a cluster's pixels have.
+layout(constant_id = 45) const bool NOTE_VARIANTS = false;
 
 // Relative to the view depth: above what interpolating the position and reconstructing it from depth can differ by,
 // below a hundredth of a cluster.
@@ -21,6 +25,7 @@ shared uint slices[SLICE_WORDS];
 shared uint below[SLICE_WORDS];  // occupied slices in lower words
 shared uint ranks[TILE_PIXELS];
 shared vec4 samples[TILE_PIXELS];  // world position, view depth
+shared uint variants[TILE_PIXELS];  // a bit for the variant
 
 // Rank of the pixel's slice among the tile's, its sample kept; NO_CLUSTER where no surface is.
 uint rank_of(uvec2 pixel, uint index, uint count) {
@@ -36,15 +41,24 @@ uint rank_of(uvec2 pixel, uint index, uint count) {
     return min(rank, count - 1u);
 }
 
-void write_bounds(uint id, uint rank) {
+uint variant_bit(ivec2 pixel) {
+    uint variant = texelFetch(surface_texture, pixel, 0).w >> SURFACE_MATERIAL_BITS;
+    return variant == 0u ? 0u : 1u << (variant - 1u);
+}
+
+void write_bounds(uint id, uint tile, uint rank) {
     vec3 lower = vec3(1e38);
     vec3 upper = vec3(-1e38);
     float farthest = 0.0;
+    uvec2 pixels = uvec2(0u);
+    uint all_variants = 0u;
     for (uint i = 0u; i < TILE_PIXELS; ++i) {
         if (ranks[i] != rank) continue;
         lower = min(lower, samples[i].xyz);
         upper = max(upper, samples[i].xyz);
         farthest = max(farthest, samples[i].w);
+        pixels |= uvec2(i < 32u ? 1u << (i & 31u) : 0u, i < 32u ? 0u : 1u << (i & 31u));
+        if (NOTE_VARIANTS) all_variants |= variants[i];
     }
     vec3 eye = abs(frame.eye);
     float pad = PAD * (farthest + 0.1 * max(eye.x, max(eye.y, eye.z)));
@@ -52,6 +66,9 @@ void write_bounds(uint id, uint rank) {
     clusters[id].upper = upper + pad;
     // Until step 5 counts, which it does only where there are lights for lists.
     clusters[id].reaching = 0u;
+    clusters[id].pixels = pixels;
+    clusters[id].tile = tile;
+    clusters[id].variants = all_variants;
 }
 
 void main() {
@@ -73,12 +90,13 @@ void main() {
         if (any(greaterThanEqual(pixel, frame.size))) continue;
         uint rank = rank_of(pixel, index, count);
         ranks[index] = rank;
+        if (NOTE_VARIANTS) variants[index] = variant_bit(ivec2(pixel));
         imageStore(cluster_ids, ivec2(pixel), uvec4(rank == NO_CLUSTER ? NO_CLUSTER : first + rank));
     }
     barrier();
 
     // One invocation a cluster, so no atomics.
     for (uint rank = lane; rank < count; rank += TILE_SIZE) {
-        if (first + rank < frame.cluster_capacity) write_bounds(first + rank, rank);
+        if (first + rank < frame.cluster_capacity) write_bounds(first + rank, tile, rank);
     }
 }

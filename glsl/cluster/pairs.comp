@@ -12,7 +12,7 @@
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(set = SET_frame, binding = FRAME_DEPTH) uniform texture2D depth_texture;
-layout(set = SET_frame, binding = FRAME_PAIRS, std430) writeonly buffer PairBlock { TilePairs pairs[]; };
+layout(set = SET_pairs, binding = PAIRS_TILES, std430) writeonly buffer PairBlock { TilePairs pairs[]; };
 
 shared TilePairs sums[TILE_PIXELS];
 

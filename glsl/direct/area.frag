@@ -10,7 +10,7 @@
 #include "bind/lists.glsl"
 #include "bind/lights.glsl"
 #include "bind/area_lights.glsl"
-#include "bind/textures.glsl"
+#include "bind/fragment.glsl"
 #include "lib/light.glsl"
 #include "bind/surface.glsl"
 #include "direct/estimate.glsl"

@@ -6,7 +6,7 @@
 #include "shared.glsl"
 #include "bind/frame.glsl"
 #include "bind/lights.glsl"
-#include "bind/textures.glsl"
+#include "bind/fragment.glsl"
 #include "lib/light.glsl"
 #include "bind/surface.glsl"
 

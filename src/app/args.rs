@@ -98,7 +98,8 @@ pub(super) struct SceneOptions {
     /// Picture size in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<[u32; 2]>,
-    /// Override a key of [render], such as render.samples=16
+    /// Override a key of [render], such as render.samples=16; render.front_end=fragment, compute or auto (compute on
+    /// software devices, fragments on others) says what shades the lights in lists
     #[arg(long, value_name = "KEY=VALUE", value_parser = parse_pair)]
     pub(super) set: Vec<(String, String)>,
 }
@@ -224,7 +225,7 @@ pub(super) struct BenchOptions {
     /// Picture size in pixels [default: the scene's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<[u32; 2]>,
-    /// Override a key of [render]
+    /// Override a key of [render], such as render.front_end=fragment or compute
     #[arg(long, value_name = "KEY=VALUE", value_parser = parse_pair)]
     pub(super) set: Vec<(String, String)>,
     #[command(flatten)]

@@ -189,7 +189,7 @@ pub(super) fn pairs(
     let time = |pass: &Pass| {
         if device.kind == "cpu" { pass.cpu_ms } else { pass.gpu_ms.map(|ms| ms.median) }
     };
-    let shading = passes.iter().filter(|pass| matches!(pass.name, "direct" | "indirect"));
+    let shading = passes.iter().filter(|pass| matches!(pass.name, "resolve" | "direct" | "indirect"));
     let ms: Option<f64> = shading.map(time).sum();
     // Passes are timed over all samples, pairs counted in the last.
     let ms = ms.map(|ms| ms / f64::from(render.samples));

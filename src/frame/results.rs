@@ -63,7 +63,7 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn pairs(&self) -> Result<PairCount> {
-        PairPass::new(&self.device, &self.scene, tiles(self.settings.size))?.count(
+        PairPass::new(&self.device, tiles(self.settings.size))?.count(
             &self.device,
             &self.scene,
             self.set.get(0),

@@ -1,6 +1,6 @@
 //! What a frame is made for, and what changes from picture to picture.
 
-use crate::scene::settings::Tonemap;
+use crate::scene::settings::{FrontEnd, Tonemap};
 use indicatif::ProgressBar;
 
 use crate::scene::{Camera, Projection, RenderSettings};
@@ -20,6 +20,8 @@ pub struct FrameSettings {
     pub max_lights_per_cluster: u32,
     /// Perspective camera; orthographic otherwise.
     pub perspective: bool,
+    /// What shades the lights in lists.
+    pub front_end: FrontEnd,
     /// Every light on every pixel, without clusters: what the clustered picture is measured against.
     pub brute_force: bool,
 }
@@ -35,6 +37,7 @@ impl FrameSettings {
             light_error: render.light_error,
             max_lights_per_cluster: render.max_lights_per_cluster,
             perspective: matches!(camera.projection, Projection::Perspective { .. }),
+            front_end: render.front_end,
             brute_force: false,
         }
     }

@@ -122,6 +122,14 @@ impl Commands {
         unsafe { self.device.raw.cmd_dispatch_indirect(self.raw, arguments.raw, 0) };
     }
 
+    /// Dispatches as many workgroups as the three words at a byte offset say.
+    pub fn dispatch_indirect_at<T: Pod>(&mut self, arguments: &Buffer<T>, offset: usize) {
+        // SAFETY: the caller's shared struct begins with three words at that offset.
+        unsafe {
+            self.device.raw.cmd_dispatch_indirect(self.raw, arguments.raw, offset as vk::DeviceSize);
+        };
+    }
+
     /// Binds vertices and indices.
     pub fn bind_triangles(&mut self, vertices: &Buffer<Vertex>, triangles: &Buffer<[u32; 3]>) {
         // SAFETY: the buffers are alive until the work is waited for.

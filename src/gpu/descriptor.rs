@@ -3,7 +3,7 @@
 use super::device::Device;
 use super::{Buffer, Called, Image, Sampler, Use};
 use crate::error::Result;
-use crate::shared::{Binding, BindingKind};
+use crate::shared::{Binding, BindingKind, Stages};
 use ash::vk;
 use bytemuck::Pod;
 use std::sync::Arc;
@@ -16,6 +16,14 @@ const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
         | vk::ShaderStageFlags::FRAGMENT.as_raw()
         | vk::ShaderStageFlags::COMPUTE.as_raw(),
 );
+
+fn stages(stages: Stages) -> vk::ShaderStageFlags {
+    match stages {
+        Stages::All => STAGES,
+        Stages::Fragment => vk::ShaderStageFlags::FRAGMENT,
+        Stages::Compute => vk::ShaderStageFlags::COMPUTE,
+    }
+}
 
 fn kind(kind: BindingKind) -> vk::DescriptorType {
     match kind {
@@ -44,13 +52,11 @@ impl SetLayout {
         let rows: Vec<_> = bindings
             .iter()
             .map(|row| {
-                // Input attachments exist for fragment shaders only.
-                let fragment = row.kind == BindingKind::Input;
                 vk::DescriptorSetLayoutBinding::default()
                     .binding(row.binding)
                     .descriptor_type(kind(row.kind))
                     .descriptor_count(row.count)
-                    .stage_flags(if fragment { vk::ShaderStageFlags::FRAGMENT } else { STAGES })
+                    .stage_flags(stages(row.stages))
             })
             .collect();
         let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&rows);

@@ -231,6 +231,16 @@ impl Commands {
         self.transition_raw((image.raw, image.everything()), before, after);
     }
 
+    /// Clears a colour image, in use [`Use::TransferWrite`], to 0.
+    pub fn clear(&mut self, image: &Image) {
+        let layout = Use::TransferWrite.layout();
+        let zero = vk::ClearColorValue::default();
+        // SAFETY: the image is alive, of colour, and in that layout.
+        unsafe {
+            self.device.raw.cmd_clear_color_image(self.raw, image.raw, layout, &zero, &[image.everything()]);
+        };
+    }
+
     pub(super) fn transition_raw(
         &mut self,
         (image, range): (vk::Image, vk::ImageSubresourceRange),

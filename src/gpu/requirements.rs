@@ -89,6 +89,18 @@ const FORMATS: &[FormatRow] = &[
         "subpasses add up in float32",
     ),
     (
+        "R32G32B32A32_SFLOAT, storage",
+        vk::Format::R32G32B32A32_SFLOAT,
+        vk::FormatFeatureFlags::STORAGE_IMAGE,
+        "compute adds up in float32",
+    ),
+    (
+        "R32G32B32A32_UINT, colour",
+        vk::Format::R32G32B32A32_UINT,
+        vk::FormatFeatureFlags::COLOR_ATTACHMENT,
+        "surfaces for compute",
+    ),
+    (
         "R32_UINT, storage",
         vk::Format::R32_UINT,
         vk::FormatFeatureFlags::STORAGE_IMAGE,

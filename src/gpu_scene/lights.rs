@@ -17,19 +17,26 @@ pub(super) struct LightImages {
 impl LightImages {
     /// Makes the images and uploads the lights.
     pub(super) fn new(device: &Arc<Device>, tree: &LightTree) -> Result<Self> {
-        let image = |name, format, size, layers| {
-            let uses = &[Use::TransferWrite, Use::Texture];
+        let image = |name, format, size, layers, used| {
+            let uses = &[Use::TransferWrite, used];
             Image::new(device, &ImageDescription { name, format, size, layers, mips: 1, uses })
         };
         let [width, height, layers] = light_extent(tree.lights.len());
         let node_rows = tree.nodes.len().div_ceil(1 << shared::NODES_PER_ROW_LOG2).max(1) as u32;
         let images = Self {
-            lights: image("lights", Format::R32G32B32A32_SFLOAT, [width, height], Some(layers))?,
+            lights: image(
+                "lights",
+                Format::R32G32B32A32_SFLOAT,
+                [width, height],
+                Some(layers),
+                Use::ComputeWrite,
+            )?,
             nodes: image(
                 "light tree",
                 Format::R32G32B32A32_UINT,
                 [2 << shared::NODES_PER_ROW_LOG2, node_rows],
                 None,
+                Use::Texture,
             )?,
         };
         images.upload(tree)?;
@@ -38,12 +45,12 @@ impl LightImages {
 
     /// Uploads lights, as many as the images were made for.
     pub(super) fn upload(&self, tree: &LightTree) -> Result<()> {
-        self.lights.upload(&[&light_texels(&tree.lights)], Use::Texture)?;
+        self.lights.upload(&[&light_texels(&tree.lights)], Use::ComputeWrite)?;
         self.nodes.upload(&[&node_texels(&tree.nodes)], Use::Texture)
     }
 
     pub(super) fn bind(&self, set: DescriptorSet<'_>) {
-        set.image(shared::scene::SCENE_LIGHTS, &self.lights, Use::Texture);
+        set.image(shared::scene::SCENE_LIGHTS, &self.lights, Use::ComputeWrite);
         set.image(shared::scene::SCENE_LIGHT_NODES, &self.nodes, Use::Texture);
     }
 }

@@ -146,11 +146,12 @@ struct Lists {
 }
 
 impl ClusterPass {
-    /// Compiles the steps: lists for lights with a range, masks for area lights.
+    /// Compiles the steps: lists for lights with a range, masks for area lights. A `resolve` wants to know which variants
+    /// a cluster has.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, lists: bool, masks: bool) -> Result<Self> {
+    pub fn new(inputs: &PassInputs<'_>, lists: bool, masks: bool, resolve: bool) -> Result<Self> {
         let step = |shader| {
             ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, &Specialization::default())
         };
@@ -164,7 +165,12 @@ impl ClusterPass {
         Ok(Self {
             slices: step(shaders::CLUSTER_SLICES_COMP)?,
             scan_tiles: step(shaders::CLUSTER_SCAN_TILES_COMP)?,
-            bounds: step(shaders::CLUSTER_BOUNDS_COMP)?,
+            bounds: ComputePipeline::new(
+                inputs.device,
+                &inputs.scene.layout,
+                shaders::CLUSTER_BOUNDS_COMP,
+                &Specialization::default().with(shared::SPEC_NOTE_VARIANTS, u32::from(resolve)),
+            )?,
             lists: lists.then(of_lists).transpose()?,
             area: masks.then(|| step(shaders::CLUSTER_AREA_COMP)).transpose()?,
         })

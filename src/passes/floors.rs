@@ -2,7 +2,8 @@
 
 use crate::error::Result;
 use crate::gpu::{
-    Buffer, BufferUse, ComputePipeline, DescriptorSet, Device, Specialization, Timestamps, Use, shaders,
+    Buffer, BufferUse, ComputePipeline, DescriptorSet, DescriptorSets, Device, PipelineLayout,
+    Specialization, Timestamps, Use, shaders,
 };
 use crate::gpu_scene::GpuScene;
 use crate::shared::{self, TilePairs};
@@ -42,6 +43,8 @@ impl std::fmt::Display for Floors {
 /// The loops and what they need.
 pub struct FloorPass {
     device: Arc<Device>,
+    layout: Arc<PipelineLayout>,
+    set: DescriptorSets,
     tiles: Buffer<TilePairs>,
     timestamps: Timestamps,
 }
@@ -52,11 +55,12 @@ impl FloorPass {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(device: &Arc<Device>, tiles: u32) -> Result<Self> {
-        Ok(Self {
-            device: device.clone(),
-            tiles: Buffer::new(device, "floors", BufferUse::Storage, tiles as usize)?,
-            timestamps: Timestamps::new(device, 2)?,
-        })
+        let sets = [shared::frame::BINDINGS, shared::scene::BINDINGS, shared::pairs::BINDINGS];
+        let layout = Arc::new(PipelineLayout::new(device, &sets)?);
+        let tiles = Buffer::new(device, "floors", BufferUse::Storage, tiles as usize)?;
+        let set = layout.allocate(shared::pairs::SET, 1)?;
+        set.get(0).buffer(shared::pairs::PAIRS_TILES, &tiles);
+        Ok(Self { device: device.clone(), layout, set, tiles, timestamps: Timestamps::new(device, 2)? })
     }
 
     /// Measures; `None` where the lists are empty.
@@ -69,7 +73,6 @@ impl FloorPass {
         frame: DescriptorSet<'_>,
         tiles: [u32; 2],
     ) -> Result<Option<Floors>> {
-        frame.buffer(shared::frame::FRAME_PAIRS, &self.tiles);
         let time = |floor, model| self.time(scene, frame, tiles, [floor, model]);
         let nothing = time(shared::FLOOR_NOTHING, shared::MODEL_MATTE)?;
         let pairs: u64 =
@@ -100,14 +103,14 @@ impl FloorPass {
         let specialization =
             Specialization::default().with(shared::SPEC_FLOOR, floor).with(shared::SPEC_MODEL, model);
         let pipeline =
-            ComputePipeline::new(&self.device, &scene.layout, shaders::CLUSTER_FLOORS_COMP, &specialization)?;
+            ComputePipeline::new(&self.device, &self.layout, shaders::CLUSTER_FLOORS_COMP, &specialization)?;
         let run = || -> Result<f64> {
             let begin = ProcessTime::now();
             self.device.run("floors", |cmd| {
                 cmd.reset_timestamps(&self.timestamps);
                 cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
                 cmd.timestamp(&self.timestamps, 0);
-                cmd.bind_compute(&pipeline, &[frame, scene.set.get(0)]);
+                cmd.bind_compute(&pipeline, &[frame, scene.set.get(0), self.set.get(0)]);
                 cmd.dispatch([tiles[0], tiles[1], 1]);
                 cmd.timestamp(&self.timestamps, 1);
                 Ok(())

@@ -26,6 +26,10 @@ pub struct Work {
     pub background: bool,
     /// Point lights in lists.
     pub lists: bool,
+    /// Compute shades them, where it can.
+    pub resolve: bool,
+    /// Fragments shade them, all or what compute cannot.
+    pub indirect: bool,
     /// Area lights: how many; 0 where no surface is drawn.
     pub area: u32,
     /// Area lights through the masks of the clusters.
@@ -38,7 +42,8 @@ pub struct Work {
 
 /// The forward pass.
 pub struct Forward {
-    // First sample: clears. Later samples: adds to what is there. Compatible, so pipelines serve both.
+    // First sample: clears. Later samples: adds to what is there, as both do behind a resolve. Compatible, so pipelines
+    // serve both.
     first: RenderPass,
     further: RenderPass,
     framebuffer: Framebuffer,
@@ -53,12 +58,14 @@ impl Forward {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>, targets: &Targets, work: Work) -> Result<Self> {
-        let first = render_pass(inputs, work, Use::Nothing)?;
-        let further = render_pass(inputs, work, Use::TransferRead)?;
+        let [first, further] =
+            if work.resolve { [Use::ComputeWrite; 2] } else { [Use::Nothing, Use::TransferRead] }
+                .map(|hdr| render_pass(inputs, work, hdr));
+        let (first, further) = (first?, further?);
         let framebuffer =
             Framebuffer::new(inputs.device, &first, &[&targets.hdr, &targets.ldr, &targets.depth])?;
-        let indirect = work.lists.then(|| Indirect::new(inputs, (&first, 1))).transpose()?;
-        let last = if work.lists { 2 } else { 1 };
+        let indirect = work.indirect.then(|| Indirect::new(inputs, work.resolve, (&first, 1))).transpose()?;
+        let last = if work.indirect { 2 } else { 1 };
         Ok(Self {
             direct: Direct::new(inputs, work, (&first, 0))?,
             indirect,
@@ -112,7 +119,7 @@ fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<R
     let present = Subpass { color: &[LDR], input: &[HDR], depth: None };
     let mut subpasses = vec![shading];
     let mut inside = Vec::new();
-    if work.lists {
+    if work.indirect {
         subpasses.push(shading);
         inside.push((Use::ColorWrite, Use::ColorWrite));
     }
@@ -130,7 +137,9 @@ fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<R
         &inside,
         &[
             Outside::Before(Use::TransferRead, Use::ColorWrite),
+            Outside::Before(Use::ComputeWrite, Use::ColorWrite),
             Outside::Before(Use::DepthWrite, Use::DepthTest),
+            Outside::Before(Use::DepthRead, Use::DepthTest),
             Outside::After(Use::ColorWrite, Use::TransferRead),
         ],
     )

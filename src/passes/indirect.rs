@@ -1,4 +1,4 @@
-//! Subpass *indirect*: the many lights, through the lists of the clusters.
+//! Subpass *indirect*: the many lights, through the lists of the clusters, but for variants that the resolve shades.
 
 use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
@@ -8,12 +8,13 @@ use crate::gpu::{Blend, Commands, RenderPass, shaders};
 pub struct Indirect(SurfacePipelines);
 
 impl Indirect {
-    /// Makes one pipeline per variant.
+    /// Makes one pipeline per variant; with a resolve, of those only that it leaves out.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, at: (&RenderPass, u32)) -> Result<Self> {
-        SurfacePipelines::new(inputs, shaders::INDIRECT_MANY_FRAG, &[], Blend::Add, at).map(Self)
+    pub fn new(inputs: &PassInputs<'_>, resolve: bool, at: (&RenderPass, u32)) -> Result<Self> {
+        let wanted = |variant| !(resolve && inputs.scene.resolved.has(variant));
+        SurfacePipelines::of(inputs, shaders::INDIRECT_MANY_FRAG, &[], Blend::Add, at, wanted).map(Self)
     }
 
     /// Adds every listed light.

@@ -24,9 +24,11 @@ impl Luminaires {
         Self::with(inputs, Some(fragment), constants, (DepthTest::Equal, Some(blend)), at)
     }
 
-    /// Pipelines that write the lights' depth.
-    pub(super) fn prepass(inputs: &PassInputs<'_>, pass: &RenderPass) -> Result<Self> {
-        Self::with(inputs, None, &[], (DepthTest::WriteNearest, None), (pass, 0))
+    /// Pipelines that write the lights' depth, and with a `surface` image, that there is none.
+    pub(super) fn prepass(inputs: &PassInputs<'_>, pass: &RenderPass, surface: bool) -> Result<Self> {
+        let fragment = surface.then_some(shaders::PREPASS_LUMINAIRE_FRAG);
+        let blend = surface.then_some(Blend::Replace);
+        Self::with(inputs, fragment, &[], (DepthTest::WriteNearest, blend), (pass, 0))
     }
 
     fn with(

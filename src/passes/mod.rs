@@ -13,6 +13,7 @@ mod luminaires;
 pub mod pairs;
 pub mod prepass;
 pub mod present;
+pub mod resolve;
 
 use crate::draws::VisibleDraw;
 use crate::error::Result;
@@ -34,8 +35,9 @@ pub struct PassInputs<'a> {
     pub perspective: bool,
 }
 
-/// One pipeline per variant of the scene's materials, for a subpass that shades what the prepass left visible.
-pub struct SurfacePipelines(Vec<GraphicsPipeline>);
+/// One pipeline per variant of the scene's materials, for a subpass that shades what the prepass left visible; none for
+/// those that it leaves out.
+pub struct SurfacePipelines(Vec<Option<GraphicsPipeline>>);
 
 impl SurfacePipelines {
     fn new(
@@ -43,9 +45,24 @@ impl SurfacePipelines {
         fragment: Shader,
         extra: &[(u32, u32)],
         blend: Blend,
-        (pass, subpass): (&RenderPass, u32),
+        at: (&RenderPass, u32),
     ) -> Result<Self> {
-        let pipelines = inputs.scene.variants.iter().map(|variant| {
+        Self::of(inputs, fragment, extra, blend, at, |_| true)
+    }
+
+    /// Of the variants that `wanted` picks by their index.
+    fn of(
+        inputs: &PassInputs<'_>,
+        fragment: Shader,
+        extra: &[(u32, u32)],
+        blend: Blend,
+        (pass, subpass): (&RenderPass, u32),
+        wanted: impl Fn(usize) -> bool,
+    ) -> Result<Self> {
+        let pipelines = inputs.scene.variants.iter().enumerate().map(|(index, variant)| {
+            if !wanted(index) {
+                return Ok(None);
+            }
             let mut specialization =
                 variant.specialization.clone().with(shared::SPEC_PERSPECTIVE, u32::from(inputs.perspective));
             for &(id, value) in extra {
@@ -67,13 +84,14 @@ impl SurfacePipelines {
                     subpass,
                 },
             )
+            .map(Some)
         });
         Ok(Self(pipelines.collect::<Result<_>>()?))
     }
 
     /// Draws the whole scene; `lights` is for the shaders that evaluate a range of lights.
     fn draw(&self, cmd: &mut Commands, view: &View<'_>, lights: [u32; 2]) {
-        draw_scene(cmd, view, lights, |variant| &self.0[variant]);
+        draw_scene(cmd, view, lights, |variant| self.0[variant].as_ref());
     }
 }
 
@@ -90,29 +108,31 @@ pub struct View<'a> {
     pub frame: DescriptorSet<'a>,
 }
 
-/// Draws what is in view, each draw with the pipeline of its variant.
+/// Draws what is in view, each draw with the pipeline of its variant, if it has one.
 fn draw_scene<'a>(
     cmd: &mut Commands,
     view: &View<'_>,
     lights: [u32; 2],
-    pipeline: impl Fn(usize) -> &'a GraphicsPipeline,
+    pipeline: impl Fn(usize) -> Option<&'a GraphicsPipeline>,
 ) {
     let scene = view.scene;
     cmd.bind_triangles(&scene.vertices, &scene.triangles);
     let mut variant = None;
-    let mut material = None;
+    let mut drawn = None;
     for draw in view.draws {
+        let Some(pipeline) = pipeline(draw.variant) else { continue };
         if variant != Some(draw.variant) {
-            cmd.bind_graphics(pipeline(draw.variant));
+            cmd.bind_graphics(pipeline);
             if variant.is_none() {
                 cmd.bind_sets(shared::frame::SET, &[view.frame, scene.set.get(0)]);
             }
             variant = Some(draw.variant);
         }
-        if material != Some(draw.material) {
+        if drawn != Some((draw.variant, draw.material)) {
+            let surface = scene.resolved.word(draw.variant, draw.material);
             cmd.bind_sets(shared::material::SET, &[scene.materials.get(draw.material as usize)]);
-            cmd.push(&DrawConstants { material: draw.material, scale: 0.0, lights });
-            material = Some(draw.material);
+            cmd.push(&DrawConstants { material: draw.material, lights, surface, ..DrawConstants::default() });
+            drawn = Some((draw.variant, draw.material));
         }
         cmd.draw_triangles(draw.first, draw.count);
     }

@@ -1,7 +1,10 @@
 //! Accounting: pairs of pixel and light, evaluated and useful. Outside the frame, only for reports and benchmarks.
 
 use crate::error::Result;
-use crate::gpu::{Buffer, BufferUse, ComputePipeline, DescriptorSet, Device, Specialization, Use, shaders};
+use crate::gpu::{
+    Buffer, BufferUse, ComputePipeline, DescriptorSet, DescriptorSets, Device, PipelineLayout,
+    Specialization, Use, shaders,
+};
 use crate::gpu_scene::GpuScene;
 use crate::shared::{self, TilePairs};
 use std::sync::Arc;
@@ -22,6 +25,7 @@ pub struct PairCount {
 /// The counting pipeline and its buffer.
 pub struct PairPass {
     pipeline: ComputePipeline,
+    set: DescriptorSets,
     tiles: Buffer<TilePairs>,
 }
 
@@ -30,16 +34,15 @@ impl PairPass {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(device: &Arc<Device>, scene: &GpuScene, tiles: u32) -> Result<Self> {
-        Ok(Self {
-            pipeline: ComputePipeline::new(
-                device,
-                &scene.layout,
-                shaders::CLUSTER_PAIRS_COMP,
-                &Specialization::default(),
-            )?,
-            tiles: Buffer::new(device, "pairs", BufferUse::Storage, tiles as usize)?,
-        })
+    pub fn new(device: &Arc<Device>, tiles: u32) -> Result<Self> {
+        let sets = [shared::frame::BINDINGS, shared::scene::BINDINGS, shared::pairs::BINDINGS];
+        let layout = Arc::new(PipelineLayout::new(device, &sets)?);
+        let tiles = Buffer::new(device, "pairs", BufferUse::Storage, tiles as usize)?;
+        let set = layout.allocate(shared::pairs::SET, 1)?;
+        set.get(0).buffer(shared::pairs::PAIRS_TILES, &tiles);
+        let shader = shaders::CLUSTER_PAIRS_COMP;
+        let pipeline = ComputePipeline::new(device, &layout, shader, &Specialization::default())?;
+        Ok(Self { pipeline, set, tiles })
     }
 
     /// Counts the pairs of the picture last rendered.
@@ -53,10 +56,9 @@ impl PairPass {
         frame: DescriptorSet<'_>,
         tiles: [u32; 2],
     ) -> Result<PairCount> {
-        frame.buffer(shared::frame::FRAME_PAIRS, &self.tiles);
         device.run("pairs", |cmd| {
             cmd.memory_barrier(Use::ComputeWrite, Use::ComputeRead);
-            cmd.bind_compute(&self.pipeline, &[frame, scene.set.get(0)]);
+            cmd.bind_compute(&self.pipeline, &[frame, scene.set.get(0), self.set.get(0)]);
             cmd.dispatch([tiles[0], tiles[1], 1]);
             Ok(())
         })?;

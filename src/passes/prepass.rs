@@ -1,16 +1,16 @@
-//! Depth only, reversed; masked materials are tested.
+//! Reversed depth; masked materials are tested. Where compute shades, what it needs of the surfaces too.
 //!
-//! Reads the triangles of scene and luminaires, writes depth. Cheap beside shading, and it removes all overdraw from it.
+//! Reads the triangles of scene and luminaires, writes depth and the surface image, if there is one. Cheap beside shading, and it removes all overdraw from it.
 
 use super::luminaires::Luminaires;
 use super::{PassInputs, View, draw_scene};
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, Commands, DepthTest, Framebuffer, GraphicsDescription, GraphicsPipeline, Outside, RenderPass,
-    Subpass, Use, shaders,
+    Attachment, Blend, Commands, DepthTest, Framebuffer, GraphicsDescription, GraphicsPipeline, Outside,
+    RenderPass, Subpass, Use, shaders,
 };
 use crate::gpu_scene::Variant;
-use crate::targets::{DEPTH_FORMAT, Targets};
+use crate::targets::{DEPTH_FORMAT, SURFACE_FORMAT, Targets};
 
 /// The depth prepass.
 pub struct Prepass {
@@ -22,24 +22,19 @@ pub struct Prepass {
 }
 
 impl Prepass {
-    /// Makes pass and pipelines.
+    /// Makes pass and pipelines; with `surface`, they fill that image.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, targets: &Targets) -> Result<Self> {
-        let pass = RenderPass::new(
-            inputs.device,
-            "prepass",
-            &[Attachment { format: DEPTH_FORMAT, before: Use::Nothing, after: Use::DepthRead }],
-            &[Subpass { depth: Some((0, Use::DepthWrite)), ..Subpass::default() }],
-            &[],
-            // The last frame's readers, then this frame's clustering.
-            &[
-                Outside::Before(Use::DepthRead, Use::DepthWrite),
-                Outside::After(Use::DepthWrite, Use::DepthRead),
-            ],
-        )?;
-        let framebuffer = Framebuffer::new(inputs.device, &pass, &[&targets.depth])?;
+    pub fn new(inputs: &PassInputs<'_>, targets: &Targets, surface: bool) -> Result<Self> {
+        let pass = render_pass(inputs, surface)?;
+        let images = [&targets.depth, &targets.surface];
+        let images = if surface { &images } else { &images[..1] };
+        let framebuffer = Framebuffer::new(inputs.device, &pass, images)?;
+        let fragment = |variant: &Variant| match surface {
+            true => Some(shaders::PREPASS_SURFACE_FRAG),
+            false => variant.masked.then_some(shaders::PREPASS_MASK_FRAG),
+        };
         let pipeline = |variant: &Variant| {
             GraphicsPipeline::new(
                 inputs.device,
@@ -47,11 +42,11 @@ impl Prepass {
                 &GraphicsDescription {
                     name: "prepass",
                     vertex: shaders::PREPASS_SURFACE_VERT,
-                    fragment: variant.masked.then_some(shaders::PREPASS_MASK_FRAG),
+                    fragment: fragment(variant),
                     specialization: &variant.specialization,
                     vertices: true,
                     depth: DepthTest::WriteNearest,
-                    blend: None,
+                    blend: surface.then_some(Blend::Replace),
                     cull: variant.cull(),
                     pass: &pass,
                     subpass: 0,
@@ -60,19 +55,48 @@ impl Prepass {
         };
         let pipelines = inputs.scene.variants.iter().map(pipeline).collect::<Result<_>>()?;
         let seen = !inputs.scene.area.luminaires.is_empty();
-        let luminaires = seen.then(|| Luminaires::prepass(inputs, &pass)).transpose()?;
+        let luminaires = seen.then(|| Luminaires::prepass(inputs, &pass, surface)).transpose()?;
         Ok(Self { pass, framebuffer, pipelines, luminaires })
     }
 
-    /// Draws the scene's depth.
+    /// Draws the scene's depth, and its surfaces.
     pub fn record(&self, cmd: &mut Commands, view: &View<'_>) {
         cmd.labelled("prepass", |cmd| {
             cmd.begin_pass(&self.pass, &self.framebuffer);
-            draw_scene(cmd, view, [0; 2], |variant| &self.pipelines[variant]);
+            draw_scene(cmd, view, [0; 2], |variant| Some(&self.pipelines[variant]));
             if let Some(luminaires) = &self.luminaires {
                 luminaires.draw(cmd, view);
             }
             cmd.end_pass();
         });
     }
+}
+
+fn render_pass(inputs: &PassInputs<'_>, surface: bool) -> Result<RenderPass> {
+    let depth = Attachment { format: DEPTH_FORMAT, before: Use::Nothing, after: Use::DepthRead };
+    let color = Attachment { format: SURFACE_FORMAT, before: Use::Nothing, after: Use::ComputeRead };
+    let both = [depth, color];
+    // The last frame's readers, then this frame's clustering.
+    let mut outside = vec![
+        Outside::Before(Use::DepthRead, Use::DepthWrite),
+        Outside::After(Use::DepthWrite, Use::DepthRead),
+    ];
+    if surface {
+        outside.extend([
+            Outside::Before(Use::ComputeRead, Use::ColorWrite),
+            Outside::After(Use::ColorWrite, Use::ComputeRead),
+        ]);
+    }
+    RenderPass::new(
+        inputs.device,
+        "prepass",
+        if surface { &both } else { &both[..1] },
+        &[Subpass {
+            color: if surface { &[1] } else { &[] },
+            depth: Some((0, Use::DepthWrite)),
+            ..Subpass::default()
+        }],
+        &[],
+        &outside,
+    )
 }

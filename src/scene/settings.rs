@@ -23,6 +23,19 @@ pub struct RenderSettings {
     pub bounces: u32,
     /// Visibility of every light.
     pub shadows: bool,
+    /// What shades the lights in lists.
+    pub front_end: FrontEnd,
+}
+
+/// What shades the lights that come in lists. The picture is the same, but for the last bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrontEnd {
+    /// Compute on software devices, where it was measured to be faster; fragments on others.
+    Auto,
+    /// A subpass of the render pass.
+    Fragment,
+    /// A pass of compute; materials with textures or a tangent's direction stay with fragments.
+    Compute,
 }
 
 /// Tone curve of display-referred output.
@@ -49,6 +62,7 @@ impl Default for RenderSettings {
             vpls: 0,
             bounces: 3,
             shadows: false,
+            front_end: FrontEnd::Auto,
         }
     }
 }

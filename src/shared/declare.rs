@@ -33,6 +33,17 @@ pub enum BindingKind {
     Input,
 }
 
+/// Which shaders see a binding. Limits count per stage, so what one stage alone reads costs the others nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stages {
+    /// All of them.
+    All,
+    /// Fragment shaders.
+    Fragment,
+    /// Compute shaders.
+    Compute,
+}
+
 /// One binding of a descriptor set.
 #[derive(Clone, Copy, Debug)]
 pub struct Binding {
@@ -42,6 +53,8 @@ pub struct Binding {
     pub kind: BindingKind,
     /// Array length.
     pub count: u32,
+    /// Who sees it.
+    pub stages: Stages,
 }
 
 /// Name and byte offset of every field of a shared struct.
@@ -64,11 +77,20 @@ macro_rules! field_type {
     };
 }
 
+macro_rules! stages {
+    () => {
+        $crate::shared::Stages::All
+    };
+    ($stage:ident) => {
+        $crate::shared::Stages::$stage
+    };
+}
+
 macro_rules! shared {
     (
         constants { $($(#[$cdoc:meta])* $constant:ident = $value:literal;)* }
         sets { $($(#[$sdoc:meta])* $set:ident = $index:literal {
-            $($(#[$bdoc:meta])* $binding:ident = $slot:literal: $kind:ident $([$array:literal])?;)*
+            $($(#[$bdoc:meta])* $binding:ident = $slot:literal: $kind:ident $([$array:literal])? $(in $stage:ident)?;)*
         })* }
         structs { $($(#[$tdoc:meta])* $struct:ident {
             $($(#[$fdoc:meta])* $field:ident: $type:ident $([$count:literal])?;)*
@@ -85,6 +107,7 @@ macro_rules! shared {
                 binding: $slot,
                 kind: super::BindingKind::$kind,
                 count: 1 $(- 1 + $array)?,
+                stages: stages!($($stage)?),
             }),*];
         })*
 

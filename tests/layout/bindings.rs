@@ -27,7 +27,7 @@ fn descriptors_are_those_of_the_tables() {
             used.insert((table, slot));
         }
     }
-    let tables = ["frame", "scene", "material", "probe"].into_iter();
+    let tables = ["frame", "scene", "material", "resolve", "pairs", "probe"].into_iter();
     let all: BTreeSet<_> = tables
         .flat_map(|name| bindings_of(name).iter().map(move |binding| (name, binding.binding)))
         .collect();
@@ -39,16 +39,21 @@ fn bindings_of(table: &str) -> &'static [Binding] {
         "frame" => shared::frame::BINDINGS,
         "scene" => shared::scene::BINDINGS,
         "material" => shared::material::BINDINGS,
+        "resolve" => shared::resolve::BINDINGS,
+        "pairs" => shared::pairs::BINDINGS,
         _ => shared::probe::BINDINGS,
     }
 }
 
-/// The probes have a set of their own, in the place of the frame's.
+/// The probes have a set of their own, in the place of the frame's; the resolve and the accounting, in that of a
+/// material's.
 fn table(shader: &str, set: u32) -> Option<(&'static str, &'static [Binding])> {
     let name = match set {
         shared::probe::SET if shader.starts_with("probe/") => "probe",
         shared::frame::SET => "frame",
         shared::scene::SET => "scene",
+        shared::resolve::SET if shader.starts_with("resolve/") => "resolve",
+        shared::pairs::SET if shader == "cluster/pairs.comp" => "pairs",
         shared::material::SET => "material",
         _ => return None,
     };
@@ -77,6 +82,8 @@ fn specialization_constants_have_their_ids() {
     let mut used = BTreeSet::new();
     for (shader, module) in modules() {
         for (name, id) in module.specialization() {
+            // GLSL has no name for the constant that is a workgroup's width.
+            let name = if name.is_empty() { "LANES" } else { name };
             let wanted = want.get(name);
             assert_eq!(Some(&id), wanted, "{}: constant_id of {name}", shader.name);
             used.insert(name.to_owned());

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use amas::gpu::Stage;
-use amas::shared::{BindingKind, frame, material, probe, scene};
+use amas::shared::{Binding, BindingKind, Stages, frame, material, pairs, probe, resolve, scene};
 
 use crate::spirv::{Module, Type, class, decoration};
 use crate::{constant, modules};
@@ -53,7 +53,11 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             // One workgroup per tile: one invocation per column, or per pixel.
             "cluster/slices.comp" | "cluster/bounds.comp" => Some([tile, 1, 1]),
             "cluster/pairs.comp" | "cluster/floors.comp" => Some([tile, tile, 1]),
-            "cluster/scan_tiles.comp" | "cluster/scan_lists.comp" => Some([scan, 1, 1]),
+            "cluster/scan_tiles.comp" | "cluster/scan_lists.comp" | "resolve/gather.comp" => {
+                Some([scan, 1, 1])
+            }
+            // Chosen when the pipeline is made: 8, or 32.
+            "resolve/many.comp" => Some([1, 1, 1]),
             // One invocation per element.
             _ => Some([linear, 1, 1]),
         };
@@ -77,19 +81,25 @@ fn memory_and_descriptors_fit_every_device() {
     }
 }
 
-/// Layouts show every descriptor to every stage, so each stage carries the sum of all sets.
+/// A layout shows a stage every descriptor that is not another stage's alone: each carries the sum over all sets.
 #[test]
 fn pipeline_layouts_fit_the_device_that_amas_asks_for() {
-    let sets = [frame::BINDINGS, scene::BINDINGS, material::BINDINGS];
-    let count = |kinds: &[BindingKind]| -> u32 {
-        let bindings = sets.iter().copied().flatten();
-        let matching = bindings.filter(|binding| kinds.contains(&binding.kind));
-        matching.map(|binding| binding.count).sum()
-    };
-    assert!(count(&[BindingKind::Storage]) <= STORAGE_BUFFERS);
-    assert!(count(&[BindingKind::Sampled, BindingKind::Combined]) <= SAMPLED_IMAGES);
-    assert!(count(&[BindingKind::StorageImage]) <= STORAGE_IMAGES);
-    for table in sets.into_iter().chain([probe::BINDINGS]) {
+    for last in [material::BINDINGS, resolve::BINDINGS, pairs::BINDINGS] {
+        let sets = [frame::BINDINGS, scene::BINDINGS, last];
+        for stage in [Stages::Fragment, Stages::Compute] {
+            let count = |kinds: &[BindingKind]| -> u32 {
+                let seen = |binding: &&Binding| [Stages::All, stage].contains(&binding.stages);
+                let matching = sets.iter().copied().flatten().filter(seen);
+                matching.filter(|binding| kinds.contains(&binding.kind)).map(|binding| binding.count).sum()
+            };
+            assert!(count(&[BindingKind::Storage]) <= STORAGE_BUFFERS, "{stage:?}: {last:?}");
+            let sampled = count(&[BindingKind::Sampled, BindingKind::Combined]);
+            assert!(sampled <= SAMPLED_IMAGES, "{stage:?}: {last:?}");
+            assert!(count(&[BindingKind::StorageImage]) <= STORAGE_IMAGES, "{stage:?}: {last:?}");
+        }
+    }
+    let tables = [frame::BINDINGS, scene::BINDINGS, material::BINDINGS];
+    for table in tables.into_iter().chain([resolve::BINDINGS, pairs::BINDINGS, probe::BINDINGS]) {
         let numbers: BTreeSet<_> = table.iter().map(|binding| binding.binding).collect();
         assert_eq!(numbers.len(), table.len(), "binding numbers are unique: {table:?}");
     }

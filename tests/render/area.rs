@@ -4,6 +4,7 @@ use crate::support::{FIVE_MATERIALS, Rig, assert_close, oracle, relative_errors,
 use amas::Scene;
 use amas::gpu::Use;
 use amas::passes::aov::Quantity;
+use amas::scene::settings::FrontEnd;
 use amas::scene::{AreaLight, AreaShape};
 use amas::shared::{AREA_MASK_LIGHTS, NO_CLUSTER};
 use glam::{DVec3, Vec3};
@@ -207,9 +208,10 @@ fn passes_are_those_that_the_lights_need() {
         rig.frame.render(&inputs).unwrap().passes.iter().map(|pass| pass.name).collect::<Vec<_>>()
     };
     let few = small(&format!("{FIVE_MATERIALS}{}", light(SHAPES[0])));
-    assert_eq!(names(&mut Rig::new(scene(&few))), ["prepass", "direct", "present"]);
-    assert_eq!(names(&mut Rig::new(hundred_polygons())), ["prepass", "cluster", "direct", "present"]);
-    let mut rig = Rig::new(both.clone());
+    let fragment = |scene| Rig::with(scene, |settings| settings.front_end = FrontEnd::Fragment);
+    assert_eq!(names(&mut fragment(scene(&few))), ["prepass", "direct", "present"]);
+    assert_eq!(names(&mut fragment(hundred_polygons())), ["prepass", "cluster", "direct", "present"]);
+    let mut rig = fragment(both.clone());
     assert_eq!(names(&mut rig), ["prepass", "cluster", "direct", "indirect", "present"]);
     let brute = Rig::with(both, |settings| settings.brute_force = true).render();
     assert!(relative_errors(&rig.render(), &brute).last().unwrap() <= &1e-5);

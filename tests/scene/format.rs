@@ -1,6 +1,9 @@
 //! `[render]`, cameras and overrides.
 
-use amas::scene::{Projection, load_embedded, settings::Tonemap};
+use amas::scene::{
+    Projection, load_embedded,
+    settings::{FrontEnd, Tonemap},
+};
 use glam::DVec3;
 
 use crate::{CAMERA, load, try_load};
@@ -43,13 +46,15 @@ fn overrides_win_over_the_file_and_the_last_one_over_all() {
         ("shadows", "true"),
         ("indirect", "{ vpls = 5 }"),
         ("render.indirect.bounces", "1"),
+        ("front_end", "fragment"),
+        ("render.front_end", "compute"),
         ("light_error", "0.5"),
         ("light_error", " 0.25 "),
     ];
     let render = try_load("[render]\nexposure = 1\nlight_error = 0.1\n", &[], &set).unwrap().render;
     assert_eq!((render.size, render.exposure, render.tonemap), ([64, 32], 2.0, Tonemap::Aces));
     assert_eq!((render.shadows, render.vpls, render.bounces), (true, 5, 1));
-    assert_eq!(render.light_error, 0.25);
+    assert_eq!((render.light_error, render.front_end), (0.25, FrontEnd::Compute));
 }
 
 #[test]
@@ -63,6 +68,7 @@ fn bad_overrides_name_the_set() {
         ("exposure", "bright", "`exposure` must be a number"),
         ("exposure", "nan", "nan"),
         ("tonemap", "acess", "did you mean `aces`?"),
+        ("front_end", "computer", "did you mean `compute`?"),
         ("shadows", "True", "must be true or false"),
         ("samples", "0", "must be from 1 to 65536"),
         ("samples", "1\nsize = [1, 1]", "not valid TOML"),

@@ -9,12 +9,12 @@ use toml::de::DeValue;
 
 use super::{Source, Table, Value, suggestion};
 use crate::error::{Error, Result};
-use crate::scene::settings::{RenderSettings, Tonemap};
+use crate::scene::settings::{FrontEnd, RenderSettings, Tonemap};
 
 /// Pixels of the largest picture: 1 GiB as float32 RGBA.
 const LARGEST_PICTURE: u32 = 1 << 26;
 
-const KEYS: [&str; 9] = [
+const KEYS: [&str; 10] = [
     "size",
     "exposure",
     "samples",
@@ -24,6 +24,7 @@ const KEYS: [&str; 9] = [
     "max_lights_per_cluster",
     "indirect",
     "shadows",
+    "front_end",
 ];
 
 const INDIRECT_KEYS: [&str; 2] = ["vpls", "bounces"];
@@ -85,6 +86,7 @@ fn apply(settings: &mut RenderSettings, value: &Value) -> Result<()> {
         "indirect" => indirect(settings, value)?,
         "indirect.vpls" | "vpls" => settings.vpls = value.integer(0..=1 << 20)?,
         "indirect.bounces" | "bounces" => settings.bounces = value.integer(0..=64)?,
+        "front_end" => settings.front_end = front_end(value)?,
         _ => settings.shadows = value.boolean()?,
     }
     Ok(())
@@ -102,6 +104,11 @@ fn size(value: &Value) -> Result<[u32; 2]> {
 
 fn tonemap(value: &Value) -> Result<Tonemap> {
     value.choice(&[("none", Tonemap::None), ("aces", Tonemap::Aces), ("agx", Tonemap::Agx)])
+}
+
+fn front_end(value: &Value) -> Result<FrontEnd> {
+    let names = [("auto", FrontEnd::Auto), ("fragment", FrontEnd::Fragment), ("compute", FrontEnd::Compute)];
+    value.choice(&names)
 }
 
 fn indirect(settings: &mut RenderSettings, value: &Value) -> Result<()> {
