@@ -11,7 +11,18 @@
 #include "lib/light.glsl"
 #include "bind/surface.glsl"
 
+layout(constant_id = 60) const bool FOLDED = false;
 layout(location = 0) out vec4 radiance;
+
+// Radiance from a node of folded lights: what they give at the cluster's middle, and how it changes across the cluster.
+vec3 reflected_node(Surface surface, uint texel) {
+    vec4 place = uintBitsToFloat(list_indices(texel));
+    vec3 irradiance = uintBitsToFloat(list_indices(texel + 1u)).rgb;
+    vec3 slope = uintBitsToFloat(list_indices(texel + 2u)).xyz;
+    vec3 to_node = place.xyz - surface.position;
+    vec3 wi = (to_node * inversesqrt(max(dot(to_node, to_node), 1e-30))) * surface.world_from_local;
+    return bsdf_eval_cos(surface.bsdf, wi) * irradiance * max(place.w + dot(slope, surface.position), 0.0);
+}
 
 void main() {
     Surface surface = surface_here();
@@ -24,6 +35,9 @@ void main() {
         sum += reflected(surface, four.y);
         sum += reflected(surface, four.z);
         sum += reflected(surface, four.w);
+    }
+    if (FOLDED) {
+        for (uint i = 0u; i < list.nodes; ++i) sum += reflected_node(surface, end + i * FOLD_TEXELS);
     }
     radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

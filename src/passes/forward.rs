@@ -26,6 +26,8 @@ pub struct Work {
     pub background: bool,
     /// Point lights in lists.
     pub lists: bool,
+    /// Some of the lists are folded.
+    pub folded: bool,
     /// Area lights: how many; 0 where no surface is drawn.
     pub area: u32,
     /// Area lights through the masks of the clusters.
@@ -57,7 +59,7 @@ impl Forward {
         let further = render_pass(inputs, work, Use::TransferRead)?;
         let framebuffer =
             Framebuffer::new(inputs.device, &first, &[&targets.hdr, &targets.ldr, &targets.depth])?;
-        let indirect = work.lists.then(|| Indirect::new(inputs, (&first, 1))).transpose()?;
+        let indirect = work.lists.then(|| Indirect::new(inputs, work.folded, (&first, 1))).transpose()?;
         let last = if work.lists { 2 } else { 1 };
         Ok(Self {
             direct: Direct::new(inputs, work, (&first, 0))?,
