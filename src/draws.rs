@@ -158,7 +158,7 @@ mod tests {
                 far: Some(20.0),
                 path: Vec::new(),
             };
-            let constants = camera_constants(&camera, [64, 64], [0.0; 2], None);
+            let constants = camera_constants(&camera, [64, 64], [0.0; 2], None, 0.0);
             let at = |x: f64, z: f64, first: u32| Draw {
                 variant: 0,
                 from_outside: Some(1),

@@ -33,6 +33,7 @@ pub struct Frame {
     device: Arc<Device>,
     scene: Arc<GpuScene>,
     settings: FrameSettings,
+    work: Work,
     targets: Targets,
     prepass: Prepass,
     cluster: Option<ClusterPass>,
@@ -62,16 +63,17 @@ impl Frame {
         let inputs = PassInputs { device, scene, perspective: settings.perspective };
         let work = work(device, scene, &settings);
         let targets = Targets::new(device, settings.size, work.resolve)?;
-        let tiles = tiles(settings.size);
+        let tiles = tiles_of(settings.size);
         let pass_names = pass_names(work);
         let mask = if work.masks { work.area.div_ceil(shared::AREA_MASK_LIGHTS) } else { 0 };
-        let capacity = Capacity::start(tiles, mask);
+        let capacity = Capacity::start(tiles, work.lists, mask);
         let frame = Self {
             prepass: Prepass::new(&inputs, &targets, work.resolve)?,
-            cluster: clustered(work)
-                .then(|| ClusterPass::new(&inputs, work.lists, work.masks, work.resolve))
+            cluster: clustered(work).then(|| ClusterPass::new(&inputs, work)).transpose()?,
+            resolve: work
+                .resolve
+                .then(|| Resolve::new(&inputs, &targets, work.folded, capacity.clusters))
                 .transpose()?,
-            resolve: work.resolve.then(|| Resolve::new(&inputs, &targets, capacity.clusters)).transpose()?,
             forward: Forward::new(&inputs, &targets, work)?,
             lists: ClusterTargets::new(device, tiles, capacity)?,
             constants: Buffer::new(device, "frame constants", BufferUse::Uniform, 1)?,
@@ -89,6 +91,7 @@ impl Frame {
             device: device.clone(),
             scene: scene.clone(),
             settings,
+            work,
         };
         frame.bind();
         Ok(frame)
@@ -135,16 +138,36 @@ impl Frame {
             if self.cluster.is_some()
                 && let Some(capacity) = self.lists.capacity.grown(&self.counters)
             {
-                self.lists = ClusterTargets::new(&self.device, tiles(self.settings.size), capacity)?;
-                if let Some(resolve) = &mut self.resolve {
-                    resolve.grow(&self.device, &self.scene, capacity.clusters)?;
-                }
-                self.bind();
+                self.grow(capacity)?;
                 inputs.progress.dec(u64::from(index) + 1);
                 return Ok(None);
             }
         }
         Ok(Some(watch.stop()))
+    }
+
+    /// Makes room, and the passes that fold lists if this frame is the first to need them.
+    fn grow(&mut self, capacity: Capacity) -> Result<()> {
+        if capacity.folds && !self.work.folded {
+            self.work.folded = true;
+            let inputs = PassInputs {
+                device: &self.device,
+                scene: &self.scene,
+                perspective: self.settings.perspective,
+            };
+            self.cluster = Some(ClusterPass::new(&inputs, self.work)?);
+            if self.work.resolve {
+                self.resolve =
+                    Some(Resolve::new(&inputs, &self.targets, self.work.folded, capacity.clusters)?);
+            }
+            self.forward = Forward::new(&inputs, &self.targets, self.work)?;
+        }
+        if let Some(resolve) = &mut self.resolve {
+            resolve.grow(&self.device, &self.scene, capacity.clusters)?;
+        }
+        self.lists = ClusterTargets::new(&self.device, tiles_of(self.settings.size), capacity)?;
+        self.bind();
+        Ok(())
     }
 
     fn submit(&self, sample: Sample, split: bool, watch: &mut Stopwatch) -> Result<()> {
@@ -221,16 +244,20 @@ impl Frame {
         let mut camera = inputs.camera.clone();
         camera.position -= origin;
         camera.target -= origin;
-        let mut constants = camera_constants(&camera, self.settings.size, jitter, self.scene.bounds);
+        let range = self.scene.lights.median_range;
+        let mut constants = camera_constants(&camera, self.settings.size, jitter, self.scene.bounds, range);
         // N samples share a pixel, so each filters its textures over an N-th of it.
         constants.sample_index = sample;
         constants.light_error = self.settings.light_error;
         constants.texture_bias = -0.5 * (inputs.samples as f32).log2();
         constants.light_count = self.scene.lights.lights.len() as u32;
         constants.direct_begin = if self.settings.brute_force { 0 } else { self.scene.lights.ranged as u32 };
-        constants.node_count = self.scene.lights.nodes.len() as u32;
+        constants.top_nodes = self.scene.lights.top_nodes();
         constants.max_list = self.settings.max_lights_per_cluster;
         constants.cluster_capacity = self.lists.capacity.clusters;
+        constants.parent_capacity = self.lists.capacity.parents;
+        [constants.parent_texels, constants.sibling_texels, constants.list_texels] =
+            self.lists.capacity.first_texels().map(|texel| texel as u32);
         constants.list_capacity = self.lists.capacity.texels;
         constants.area_lights = self.scene.area.count;
         constants.area_texels = self.lists.capacity.mask;
@@ -276,6 +303,7 @@ fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
         lists,
         resolve,
         indirect: lists && !(resolve && scene.resolved.has_all()),
+        folded: false,
         area,
         masks: area > AREA_LIGHTS_WITHOUT_MASKS && !settings.brute_force,
         luminaires: !scene.area.luminaires.is_empty(),

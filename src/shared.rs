@@ -19,8 +19,31 @@ shared! {
         TILE_SIZE = 8;
         /// Pixels of a tile.
         TILE_PIXELS = 64;
-        /// 32-bit words of a tile's slice mask.
+        /// 32-bit words of a mask of slices.
         SLICE_WORDS = 8;
+        /// Words of a tile's masks: one for each quadrant.
+        TILE_WORDS = 32;
+        /// Tiles along a block's side.
+        BLOCK_TILES = 8;
+        /// Bands of slices; a block's clusters of one band have one parent.
+        BANDS = 32;
+        /// log2 of the slices of a band: about as deep as a block is wide.
+        BAND_SLICES_LOG2 = 3;
+        /// Clusters that one invocation tests a light against; all have one parent.
+        SIBLINGS = 4;
+        /// Invocations of the workgroup that tests a parent: on lavapipe a vector, so that barriers cost nothing.
+        GATHER_LANES = 8;
+        /// Entries that a parent's list has room for.
+        PARENT_ROOM = 2048;
+        /// Bits of a parent's count of entries; what they are lies above.
+        PARENT_COUNT_BITS = 30;
+        /// Nodes that the lights beyond a list's cap are folded into: one for each octant, and for each invocation of the
+        /// workgroup that does it.
+        FOLD_NODES = 8;
+        /// Texels of such a node: position; irradiance; its slope, with the constant in the position's fourth.
+        FOLD_TEXELS = 3;
+        /// Specialisation constant: some lists are folded.
+        SPEC_FOLDED = 60;
         /// Depth slices at most.
         MAX_SLICES = 256;
         /// Invocations of one-dimensional compute work.
@@ -58,8 +81,8 @@ shared! {
         NODES_PER_ROW_LOG2 = 8;
         /// Lights of a leaf of the light tree; at most 32, one bit each.
         LEAF_LIGHTS = 32;
-        /// Bits of a leaf's light count in `LightNode::lights`.
-        LEAF_COUNT_BITS = 6;
+        /// Leaves of a top node.
+        TOP_LEAVES = 64;
         /// log2 of the texels across the occluders' texture.
         BVH_WIDTH_LOG2 = 12;
         /// Texels before the nodes.
@@ -260,7 +283,7 @@ shared! {
         scene = 1 {
             /// Lights, two texels each.
             SCENE_LIGHTS = 0: StorageImage;
-            /// [`LightNode`](super::LightNode)s in depth-first order, two texels each.
+            /// [`LightNode`](super::LightNode)s, two texels each: the top nodes, then their leaves.
             SCENE_LIGHT_NODES = 1: Sampled;
             /// What hides lights: a [`BvhHeader`](super::BvhHeader), [`BvhNode`](super::BvhNode)s in depth-first order,
             /// [`BvhTriangle`](super::BvhTriangle)s, [`MaskedTriangle`](super::MaskedTriangle)s and masks.
@@ -345,8 +368,8 @@ shared! {
             tiles: uvec2;
             /// Radiance where no surface is.
             background: vec3;
-            /// Nodes of the light tree.
-            node_count: uint;
+            /// Top nodes of the light tree.
+            top_nodes: uint;
             /// Added to the level of detail of material textures.
             texture_bias: float;
             /// Which sample of the picture this is.
@@ -357,6 +380,16 @@ shared! {
             area_lights: uint;
             /// Texels of a cluster's mask of area lights, which lie before the lists; 0: every light reaches every pixel.
             area_texels: uint;
+            /// From this slice on each quadrant of a tile has clusters of its own.
+            split_slice: uint;
+            /// Room for parents.
+            parent_capacity: uint;
+            /// First texel of their lists.
+            parent_texels: uint;
+            /// First texel of the masks of their children.
+            sibling_texels: uint;
+            /// First texel of lists of clusters.
+            list_texels: uint;
         }
         /// Push constants of a draw.
         DrawConstants {
@@ -369,20 +402,20 @@ shared! {
             /// Prepass: last word of the surface.
             surface: uint;
         }
-        /// A tile's occupied slices.
+        /// A tile's occupied slices. Behind the tiles lie the blocks.
         Tile {
-            /// Bit per slice.
-            slices: uint[8];
-            /// Occupied slices.
-            count: uint;
-            /// Id of the first of its clusters.
-            first: uint;
+            /// Bit per slice, of each quadrant; before the split all are in the first. Of a block: its clusters in each
+            /// band, and later the band's parent.
+            slices: uint[32];
+            /// Clusters of the band in the block's earlier tiles. Of a block: the band's first cluster.
+            first: uint[32];
         }
-        /// An occupied cluster: bounds of its samples in world space, and its list.
+        /// An occupied cluster: bounds of its samples in world space, and its list. Behind the clusters lie their parents,
+        /// whose lists hold every light that may reach a child.
         Cluster {
             /// Lower corner.
             lower: vec3;
-            /// Lights that reach it, before the cap.
+            /// Lights that reach it, before the cap. Of a parent: entries of its list, and what these are.
             reaching: uint;
             /// Upper corner.
             upper: vec3;
@@ -394,6 +427,14 @@ shared! {
             tile: uint;
             /// A bit for each variant that the resolve finds in it.
             variants: uint;
+            /// Number of its parent. Of a parent: its first child.
+            parent: uint;
+            /// Of a parent: its children.
+            children: uint;
+            /// Entry k: the k-th cluster that is folded.
+            folded: uint;
+            /// Estimate of the relative error that folding causes in it.
+            error: float;
         }
         /// Work of one pipeline of the resolve; the first three words are an indirect dispatch.
         ResolveDispatch {
@@ -408,7 +449,7 @@ shared! {
             /// How many.
             count: uint;
         }
-        /// What the cluster pass counts; the first three words are an indirect dispatch over clusters.
+        /// What the cluster pass counts; the first words are indirect dispatches.
         Counters {
             /// Workgroups over clusters, at most `MAX_GROUPS` a row.
             groups_x: uint;
@@ -416,9 +457,25 @@ shared! {
             groups_y: uint;
             /// 1.
             groups_z: uint;
-            /// Occupied clusters.
+            /// Workgroups over parents, one each.
+            parents_x: uint;
+            /// Rows of them.
+            parents_y: uint;
+            /// 1.
+            parents_z: uint;
+            /// Workgroups over folded clusters, one each.
+            folds_x: uint;
+            /// Rows of them.
+            folds_y: uint;
+            /// 1.
+            folds_z: uint;
+            /// Parents.
+            parents: uint;
+            /// Ids of clusters, some of them unused: each parent's first is a multiple of `SIBLINGS`.
             clusters: uint;
-            /// List texels needed.
+            /// Occupied clusters.
+            occupied: uint;
+            /// Texels needed in all.
             list_texels: uint;
             /// Indices in all lists.
             entries: uint;
@@ -426,19 +483,23 @@ shared! {
             longest: uint;
             /// Lists over the cap.
             overflowed: uint;
-            /// Lights that the cap cut away, summed over lists.
-            dropped: uint;
+            /// Lights that are folded, summed over lists.
+            folded: uint;
+            /// Clusters with folded lights, or with a crowded parent.
+            folding: uint;
+            /// Bits of the largest estimate of the relative error that folding causes in a cluster.
+            fold_error: uint;
         }
         /// A node of the light tree: a box that holds its lights' spheres.
         LightNode {
             /// Lower corner.
             lower: vec3;
-            /// Next node where this one is missed.
-            skip: uint;
+            /// First light.
+            first: uint;
             /// Upper corner.
             upper: vec3;
-            /// Leaf: first light << LEAF_COUNT_BITS | count; inner node: 0.
-            lights: uint;
+            /// Lights.
+            count: uint;
         }
         /// An area light. Vectors that a kind does not have are 0; first vertices and points are those of the texture.
         AreaRecord {

@@ -9,6 +9,7 @@ layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) readonly buffer Cluste
 struct LightList {
     uint texel;  // first texel
     uint count;  // lights
+    uint nodes;  // of lights that are folded, behind the list
 };
 
 // The cluster that the pixel's surface lies in. The id was stored by the cluster pass: computing it here again could
@@ -17,10 +18,13 @@ uint cluster_at(ivec2 pixel) { return texelFetch(cluster_ids, pixel, 0).r; }
 
 LightList list_of(uint id) {
     // Past the capacity the frame is rendered again with more room; until then nothing out of bounds is read.
-    if (id >= frame.cluster_capacity) return LightList(0u, 0u);
-    uint count = min(clusters[id].reaching, frame.max_list);
+    if (id >= frame.cluster_capacity) return LightList(0u, 0u, 0u);
+    uint reaching = clusters[id].reaching;
+    uint count = min(reaching, frame.max_list);
+    uint nodes = reaching > count ? FOLD_NODES : 0u;
     uint texel = clusters[id].list;
-    return LightList(texel, texel + (count + 3u) / 4u <= frame.list_capacity ? count : 0u);
+    bool fits = texel + (count + 3u) / 4u + nodes * FOLD_TEXELS <= frame.list_capacity;
+    return fits ? LightList(texel, count, nodes) : LightList(0u, 0u, 0u);
 }
 
 LightList list_at(ivec2 pixel) { return list_of(cluster_at(pixel)); }

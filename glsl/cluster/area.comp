@@ -1,4 +1,4 @@
-// Step 4: which area lights reach each cluster: masks, in the texels before the lists. A light is left out only if no point
+// Step 5: which area lights reach each cluster: masks, in the texels before the lists. A light is left out only if no point
 // of the cluster's box can be lit by it: black, or one-sided and the box behind it.
 #version 450
 #extension GL_GOOGLE_include_directive : require

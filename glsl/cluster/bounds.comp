@@ -1,8 +1,9 @@
-// Step 3: each pixel's cluster id, and each cluster's bounds: the box of the samples in it, not of the froxel.
+// Step 4: each pixel's cluster id, and each cluster's bounds: the box of the samples in it, not of the froxel.
 // (many lights at 16 px: 54 pairs a pixel with these bounds, 87 with the froxel's.)
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared.glsl"
 #include "bind/frame.glsl"
 #include "lib/cluster.glsl"
@@ -10,35 +11,83 @@
 layout(local_size_x = TILE_SIZE) in;
 layout(set = SET_frame, binding = FRAME_DEPTH) uniform texture2D depth_texture;
 layout(set = SET_frame, binding = FRAME_SURFACE) uniform utexture2D surface_texture;
+layout(set = SET_frame, binding = FRAME_CLUSTER_IDS) uniform utexture2D keys_of_pixels;
 layout(set = SET_frame, binding = FRAME_CLUSTER_IDS_OUT, r32ui) writeonly uniform uimage2D cluster_ids;
 layout(set = SET_frame, binding = FRAME_TILES, std430) readonly buffer TileBlock { Tile tiles[]; };
 layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) writeonly buffer ClusterBlock { Cluster clusters[]; };
 
-// Whether the resolve asks which variants a cluster's pixels have.
+// Whether the resolve asks which pixels a cluster has, and of which variants.
 layout(constant_id = 45) const bool NOTE_VARIANTS = false;
 
-// Relative to the view depth: above what interpolating the position and reconstructing it from depth can differ by,
+// Relative to the distance: above what interpolating the position and reconstructing it from depth can differ by,
 // below a hundredth of a cluster.
 const float PAD = 1e-4;
+// Numbers of a box.
+const uint EXTREMES = 6u;
 
-shared uint slices[SLICE_WORDS];
-shared uint below[SLICE_WORDS];  // occupied slices in lower words
-shared uint ranks[TILE_PIXELS];
-shared vec4 samples[TILE_PIXELS];  // world position, view depth
-shared uint variants[TILE_PIXELS];  // a bit for the variant
+shared uint counts[SLICE_WORDS];  // clusters in each word of the tile's masks
+// The tile's clusters: slice and quadrant, id, parent.
+shared uint keys[TILE_PIXELS];
+shared uint ids[TILE_PIXELS];
+shared uint parents[TILE_PIXELS];
+// Of each column, for as many clusters as there are columns.
+shared float extremes[TILE_SIZE * EXTREMES * TILE_SIZE];
+shared uvec3 notes[TILE_SIZE * TILE_SIZE];  // its pixels, their variants
 
-// Rank of the pixel's slice among the tile's, its sample kept; NO_CLUSTER where no surface is.
-uint rank_of(uvec2 pixel, uint index, uint count) {
-    float depth = texelFetch(depth_texture, ivec2(pixel), 0).r;
-    if (!(depth > 0.0)) return NO_CLUSTER;
-    float z = view_depth(frame, depth);
-    uint slice = slice_of(frame, z);
-    uint word = slice >> 5;
-    uint rank = below[word] + uint(bitCount(slices[word] & ((1u << (slice & 31u)) - 1u)));
-    samples[index] = vec4(world_position(frame, vec2(pixel) + 0.5, z), z);
-    // Step 1 took the same logarithm in another pipeline, where it may have rounded to another slice: the sample then
-    // joins a neighbour, whose bounds follow it, but never the next tile's first cluster.
-    return min(rank, count - 1u);
+// One invocation a word: its clusters, slice by slice. Returns how many the tile has.
+uint list_clusters(uint tile, uint block) {
+    uint word = gl_LocalInvocationIndex;
+    uint masks[4];
+    uint count = 0u;
+    [[unroll]] for (uint i = 0u; i < 4u; ++i) {
+        masks[i] = tiles[tile].slices[word + i * SLICE_WORDS];
+        count += uint(bitCount(masks[i]));
+    }
+    counts[word] = count;
+    barrier();
+    uint at = 0u;
+    uint all = 0u;
+    [[unroll]] for (uint i = 0u; i < SLICE_WORDS; ++i) {
+        at += i < word ? counts[i] : 0u;
+        all += counts[i];
+    }
+    uint last_band = ~0u;
+    uint id = 0u;
+    uint parent = 0u;
+    for (uint left = masks[0] | masks[1] | masks[2] | masks[3]; left != 0u; left &= left - 1u) {
+        uint bit = uint(findLSB(left));
+        uint slice = word << 5 | bit;
+        uint band = slice >> BAND_SLICES_LOG2;
+        if (band != last_band) {
+            id = tiles[block].first[band] + tiles[tile].first[band];
+            parent = tiles[block].slices[band];
+            last_band = band;
+        }
+        [[unroll]] for (uint quadrant = 0u; quadrant < 4u; ++quadrant) {
+            if ((masks[quadrant] >> bit & 1u) == 0u) continue;
+            keys[at] = slice << 2 | quadrant;
+            parents[at] = parent;
+            ids[at++] = id++;
+        }
+    }
+    barrier();
+    return all;
+}
+
+// What the column's samples add to the box of cluster number `at`.
+void bound_column(uint at, uint column, uint key[TILE_SIZE], vec3 samples[TILE_SIZE]) {
+    vec3 lower = vec3(1e38);
+    vec3 upper = vec3(-1e38);
+    uint wanted = keys[at];
+    [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) {
+        lower = key[row] == wanted ? min(lower, samples[row]) : lower;
+        upper = key[row] == wanted ? max(upper, samples[row]) : upper;
+    }
+    uint first = (at % TILE_SIZE) * EXTREMES * TILE_SIZE + column;
+    [[unroll]] for (uint i = 0u; i < 3u; ++i) {
+        extremes[first + i * TILE_SIZE] = lower[i];
+        extremes[first + (3u + i) * TILE_SIZE] = upper[i];
+    }
 }
 
 uint variant_bit(ivec2 pixel) {
@@ -46,57 +95,75 @@ uint variant_bit(ivec2 pixel) {
     return variant == 0u ? 0u : 1u << (variant - 1u);
 }
 
-void write_bounds(uint id, uint tile, uint rank) {
+// What the column adds to the notes of cluster number `at`.
+void note_column(uint at, uint column, uint key[TILE_SIZE], uint variants[TILE_SIZE]) {
+    uvec3 note = uvec3(0u);
+    uint wanted = keys[at];
+    [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) {
+        uint bit = 1u << ((row * TILE_SIZE + column) & 31u);
+        uvec3 own = uvec3(row < 4u ? bit : 0u, row < 4u ? 0u : bit, variants[row]);
+        note |= key[row] == wanted ? own : uvec3(0u);
+    }
+    notes[(at % TILE_SIZE) * TILE_SIZE + column] = note;
+}
+
+void write_bounds(uint at, uint tile) {
     vec3 lower = vec3(1e38);
     vec3 upper = vec3(-1e38);
-    float farthest = 0.0;
-    uvec2 pixels = uvec2(0u);
-    uint all_variants = 0u;
-    for (uint i = 0u; i < TILE_PIXELS; ++i) {
-        if (ranks[i] != rank) continue;
-        lower = min(lower, samples[i].xyz);
-        upper = max(upper, samples[i].xyz);
-        farthest = max(farthest, samples[i].w);
-        pixels |= uvec2(i < 32u ? 1u << (i & 31u) : 0u, i < 32u ? 0u : 1u << (i & 31u));
-        if (NOTE_VARIANTS) all_variants |= variants[i];
+    uint first = (at % TILE_SIZE) * EXTREMES * TILE_SIZE;
+    for (uint column = 0u; column < TILE_SIZE; ++column) {
+        uint i = first + column;
+        lower = min(lower, vec3(extremes[i], extremes[i + TILE_SIZE], extremes[i + 2u * TILE_SIZE]));
+        upper = max(upper, vec3(extremes[i + 3u * TILE_SIZE], extremes[i + 4u * TILE_SIZE], extremes[i + 5u * TILE_SIZE]));
     }
     vec3 eye = abs(frame.eye);
+    // No sample's view depth exceeds its distance.
+    float farthest = length(max(abs(lower - frame.eye), abs(upper - frame.eye)));
     float pad = PAD * (farthest + 0.1 * max(eye.x, max(eye.y, eye.z)));
-    clusters[id].lower = lower - pad;
-    clusters[id].upper = upper + pad;
-    // Until step 5 counts, which it does only where there are lights for lists.
-    clusters[id].reaching = 0u;
-    clusters[id].pixels = pixels;
-    clusters[id].tile = tile;
-    clusters[id].variants = all_variants;
+    uint id = ids[at];
+    if (id >= frame.cluster_capacity) return;
+    // Nothing reaches it until step 7 counts, which it does only where there are lights for lists.
+    uvec3 note = uvec3(0u);
+    if (NOTE_VARIANTS) {
+        for (uint column = 0u; column < TILE_SIZE; ++column) note |= notes[(at % TILE_SIZE) * TILE_SIZE + column];
+    }
+    clusters[id] = Cluster(lower - pad, 0u, upper + pad, 0u, note.xy, tile, note.z, parents[at], 0u, 0u, 0.0);
 }
 
 void main() {
     uint lane = gl_LocalInvocationIndex;
     uint tile = gl_WorkGroupID.y * frame.tiles.x + gl_WorkGroupID.x;
-    uint first = tiles[tile].first;
-    uint count = tiles[tile].count;
-    if (lane < SLICE_WORDS) {
-        slices[lane] = tiles[tile].slices[lane];
-        below[lane] = 0u;
-        for (uint word = 0u; word < lane; ++word) below[lane] += uint(bitCount(tiles[tile].slices[word]));
-    }
-    barrier();
+    uvec2 at_block = gl_WorkGroupID.xy / BLOCK_TILES;
+    uint across = (frame.tiles.x + BLOCK_TILES - 1u) / BLOCK_TILES;
+    uint block = frame.tiles.x * frame.tiles.y + at_block.y * across + at_block.x;
+    uint count = list_clusters(tile, block);
 
-    for (uint row = 0u; row < TILE_SIZE; ++row) {
-        uint index = row * TILE_SIZE + lane;
+    uint key[TILE_SIZE];
+    uint id[TILE_SIZE];
+    uint variants[TILE_SIZE];
+    vec3 samples[TILE_SIZE];
+    [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) {
+        uvec2 pixel = min(gl_WorkGroupID.xy * TILE_SIZE + uvec2(lane, row), frame.size - 1u);
+        float z = view_depth(frame, texelFetch(depth_texture, ivec2(pixel), 0).r);
+        key[row] = texelFetch(keys_of_pixels, ivec2(pixel), 0).r;
+        samples[row] = world_position(frame, vec2(pixel) + 0.5, z);
+        variants[row] = NOTE_VARIANTS ? variant_bit(ivec2(pixel)) : 0u;
+        id[row] = NO_CLUSTER;
+    }
+    for (uint first = 0u; first < count; first += TILE_SIZE) {
+        uint end = min(first + TILE_SIZE, count);
+        for (uint at = first; at < end; ++at) {
+            bound_column(at, lane, key, samples);
+            if (NOTE_VARIANTS) note_column(at, lane, key, variants);
+            [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) id[row] = key[row] == keys[at] ? ids[at] : id[row];
+        }
+        barrier();
+        // One invocation a cluster, so no atomics.
+        if (first + lane < end) write_bounds(first + lane, tile);
+        barrier();
+    }
+    [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) {
         uvec2 pixel = gl_WorkGroupID.xy * TILE_SIZE + uvec2(lane, row);
-        ranks[index] = NO_CLUSTER;
-        if (any(greaterThanEqual(pixel, frame.size))) continue;
-        uint rank = rank_of(pixel, index, count);
-        ranks[index] = rank;
-        if (NOTE_VARIANTS) variants[index] = variant_bit(ivec2(pixel));
-        imageStore(cluster_ids, ivec2(pixel), uvec4(rank == NO_CLUSTER ? NO_CLUSTER : first + rank));
-    }
-    barrier();
-
-    // One invocation a cluster, so no atomics.
-    for (uint rank = lane; rank < count; rank += TILE_SIZE) {
-        if (first + rank < frame.cluster_capacity) write_bounds(first + rank, tile, rank);
+        if (all(lessThan(pixel, frame.size))) imageStore(cluster_ids, ivec2(pixel), uvec4(id[row]));
     }
 }

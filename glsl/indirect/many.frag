@@ -10,6 +10,7 @@
 #include "bind/fragment.glsl"
 #include "lib/light.glsl"
 #include "bind/surface.glsl"
+#include "indirect/node.glsl"
 
 layout(location = 0) out vec4 radiance;
 
@@ -24,6 +25,9 @@ void main() {
         sum += reflected(surface, four.y);
         sum += reflected(surface, four.z);
         sum += reflected(surface, four.w);
+    }
+    if (FOLDED) {
+        for (uint i = 0u; i < list.nodes; ++i) sum += reflected_node(surface, end + i * FOLD_TEXELS);
     }
     radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

@@ -7,6 +7,7 @@
 #include "bind/pixel.glsl"
 #include "lib/light.glsl"
 #include "bind/surface.glsl"
+#include "indirect/node.glsl"
 
 layout(local_size_x_id = 46) in;
 layout(constant_id = 44) const uint RESOLVED = 0u;
@@ -85,6 +86,13 @@ void main() {
             vec4 power = light_power(light);
 #define LIGHT(i) sums[i] += reflected(surfaces[i], place, power);
             EACH(LIGHT)
+        }
+    }
+    if (FOLDED) {
+        for (uint node = 0u; node < list.nodes; ++node) {
+            uint texel = end + node * FOLD_TEXELS;
+#define NODE(i) sums[i] += reflected_node(surfaces[i], texel);
+            EACH(NODE)
         }
     }
 #define STORE(i) if (mine[i]) { \

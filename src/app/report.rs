@@ -35,10 +35,10 @@ pub(super) struct Clusters {
     list_entries: u32,
     longest_list: u32,
     overflowed: u32,
-    /// Lights beyond the lists' cap, summed over clusters; they are missing from the picture.
-    pub(super) dropped_lights: u32,
+    /// Lights beyond the lists' cap, summed over clusters: nodes stand for them.
     folded_lights: u32,
-    max_folded_error: f64,
+    /// Largest estimate of the mean relative error that this causes in a cluster.
+    max_folded_error: f32,
 }
 
 /// Pairs of pixel and light.
@@ -77,8 +77,8 @@ struct FrameTime {
 
 #[derive(Serialize)]
 struct ErrorEstimate {
-    /// 0 where every light that reaches a pixel is evaluated; `null` where lists overflowed.
-    light_relative: Option<f64>,
+    /// 0 where every light that reaches a pixel is evaluated.
+    light_relative: f32,
     indirect_relative: f64,
 }
 
@@ -133,7 +133,7 @@ impl<'a> Report<'a> {
                 cpu_ms: figure(timings, |t| Some(t.cpu_ms)),
             },
             error_estimate: ErrorEstimate {
-                light_relative: (clusters.dropped_lights == 0).then_some(0.0),
+                light_relative: clusters.max_folded_error,
                 indirect_relative: 0.0,
             },
             clusters,
@@ -165,16 +165,15 @@ pub(super) fn figure(timings: &[Timings], value: impl Fn(&Timings) -> Option<f64
 
 /// What the last frame's cluster pass counted.
 pub(super) fn clusters(frame: &Frame) -> Clusters {
-    let Counters { clusters, entries, longest, overflowed, dropped, .. } = frame.counters();
+    let Counters { occupied, entries, longest, overflowed, folded, fold_error, .. } = frame.counters();
     Clusters {
         grid: frame.grid(),
-        occupied: clusters,
+        occupied,
         list_entries: entries,
         longest_list: longest,
         overflowed,
-        dropped_lights: dropped,
-        folded_lights: 0,
-        max_folded_error: 0.0,
+        folded_lights: folded,
+        max_folded_error: f32::from_bits(fold_error),
     }
 }
 
@@ -244,13 +243,15 @@ pub(super) fn print_table(title: &str, passes: &[Pass], frames: &[Timings]) -> R
     ))
 }
 
-/// Says what a full list cost the picture.
+/// Says what full lists cost the picture.
 pub(super) fn warn_of_overflow(counters: &Counters, cap: u32) {
-    if counters.dropped > 0 {
+    if counters.overflowed > 0 {
+        let error = 100.0 * f32::from_bits(counters.fold_error);
         complain(format_args!(
-            "warning: {} of {} clusters are reached by more than {cap} lights (at most {}); {} list entries were \
-             left out of the picture\n  remedy: raise render.max_lights_per_cluster (up to 2048), or shorten the lights' ranges",
-            counters.overflowed, counters.clusters, counters.longest, counters.dropped
+            "warning: {} of {} clusters are reached by more than {cap} lights (at most {}); {} list entries were folded, \
+             which changes a cluster by {error:.2} % at most\n  remedy: raise render.max_lights_per_cluster (up to 2048), \
+             or shorten the lights' ranges",
+            counters.overflowed, counters.occupied, counters.longest, counters.folded
         ));
     }
 }

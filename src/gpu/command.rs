@@ -116,10 +116,10 @@ impl Commands {
         unsafe { self.device.raw.cmd_dispatch(self.raw, groups[0], groups[1], groups[2]) };
     }
 
-    /// Dispatches as many workgroups as the buffer's first three words say.
-    pub fn dispatch_indirect<T: Pod>(&mut self, arguments: &Buffer<T>) {
-        // SAFETY: the buffer begins with three words, as its shared struct says.
-        unsafe { self.device.raw.cmd_dispatch_indirect(self.raw, arguments.raw, 0) };
+    /// Dispatches as many workgroups as the buffer's three words from number `word` on say.
+    pub fn dispatch_indirect<T: Pod>(&mut self, arguments: &Buffer<T>, word: u32) {
+        // SAFETY: the buffer has three words there, as its shared struct says.
+        unsafe { self.device.raw.cmd_dispatch_indirect(self.raw, arguments.raw, 4 * u64::from(word)) };
     }
 
     /// Dispatches as many workgroups as the three words at a byte offset say.

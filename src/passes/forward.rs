@@ -30,6 +30,8 @@ pub struct Work {
     pub resolve: bool,
     /// Fragments shade them, all or what compute cannot.
     pub indirect: bool,
+    /// Some of the lists are folded.
+    pub folded: bool,
     /// Area lights: how many; 0 where no surface is drawn.
     pub area: u32,
     /// Area lights through the masks of the clusters.
@@ -64,7 +66,10 @@ impl Forward {
         let (first, further) = (first?, further?);
         let framebuffer =
             Framebuffer::new(inputs.device, &first, &[&targets.hdr, &targets.ldr, &targets.depth])?;
-        let indirect = work.indirect.then(|| Indirect::new(inputs, work.resolve, (&first, 1))).transpose()?;
+        let indirect = work
+            .indirect
+            .then(|| Indirect::new(inputs, work.resolve, work.folded, (&first, 1)))
+            .transpose()?;
         let last = if work.indirect { 2 } else { 1 };
         Ok(Self {
             direct: Direct::new(inputs, work, (&first, 0))?,

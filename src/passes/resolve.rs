@@ -36,11 +36,12 @@ pub struct Resolve {
 }
 
 impl Resolve {
-    /// Compiles the scene's variants, and makes room for the work of `clusters`.
+    /// Compiles the scene's variants, and makes room for the work of `clusters`; `folded` where some lists end in nodes of
+    /// lights beyond the cap.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, targets: &Targets, clusters: u32) -> Result<Self> {
+    pub fn new(inputs: &PassInputs<'_>, targets: &Targets, folded: bool, clusters: u32) -> Result<Self> {
         let &PassInputs { device, scene, .. } = inputs;
         let sets = [shared::frame::BINDINGS, shared::scene::BINDINGS, shared::resolve::BINDINGS];
         let layout = Arc::new(PipelineLayout::new(device, &sets)?);
@@ -54,6 +55,7 @@ impl Resolve {
                     .clone()
                     .with(shared::SPEC_PERSPECTIVE, u32::from(inputs.perspective))
                     .with(shared::SPEC_LANES, lanes)
+                    .with(shared::SPEC_FOLDED, u32::from(folded))
                     .with(shared::SPEC_RESOLVED, index);
                 ComputePipeline::new(device, &layout, MANY[pixels as usize - 1], &specialization)
             });
@@ -81,50 +83,6 @@ impl Resolve {
         self.work = work(device, scene, clusters)?;
         self.set.get(0).buffer(shared::resolve::RESOLVE_WORK, &self.work);
         Ok(())
-    }
-
-    #[allow(missing_docs)]
-    pub fn profile(&self, device: &Arc<Device>, view: &View<'_>) {
-        let sets = [view.frame, view.scene.set.get(0), self.set.get(0)];
-        let time = |f: &dyn Fn(&mut Commands)| {
-            let mut all: Vec<f64> = (0..5)
-                .map(|_| {
-                    let t = cpu_time::ProcessTime::now();
-                    device
-                        .run("p", |cmd| {
-                            f(cmd);
-                            Ok(())
-                        })
-                        .unwrap();
-                    t.elapsed().as_secs_f64() * 1e3
-                })
-                .collect();
-            all.sort_by(f64::total_cmp);
-            all[2]
-        };
-        println!(
-            "gather {:.2}",
-            time(&|cmd| {
-                cmd.bind_compute(&self.gather, &sets);
-                cmd.dispatch([self.many.len() as u32, 1, 1]);
-            })
-        );
-        let words = self.work.fetch(Use::ComputeWrite).unwrap();
-        for (variant, pipelines) in self.many.iter().enumerate() {
-            for (pixels, pipeline) in pipelines.iter().enumerate() {
-                let dispatch = variant * shared::RESOLVE_PIXELS as usize + pixels;
-                let ms = time(&|cmd| {
-                    cmd.bind_compute(pipeline, &sets);
-                    cmd.dispatch_indirect_at(&self.work, dispatch * size_of::<ResolveDispatch>());
-                });
-                println!(
-                    "variant {variant} {:?} pixels {} count {} ms {ms:.2}",
-                    &view.scene.resolved.specializations[variant].values()[..1],
-                    pixels + 1,
-                    words[dispatch * 5 + 4]
-                );
-            }
-        }
     }
 
     /// Adds every listed light.

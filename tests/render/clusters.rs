@@ -13,7 +13,7 @@ fn a_hundred_thousand_lights_equal_brute_force() {
     let text = small(&format!("{FIVE_MATERIALS}{}", ranged_lights(100_000, 0.12)));
     let mut rig = Rig::new(scene(&text));
     let clustered = rig.render();
-    assert_eq!(rig.frame.counters().dropped, 0, "the lists hold every light");
+    assert_eq!(rig.frame.counters().folded, 0, "the lists hold every light");
     let brute = Rig::with(scene(&text), |settings| settings.brute_force = true).render();
     let errors = relative_errors(&clustered, &brute);
     let worst = errors[errors.len() - 1];
@@ -41,9 +41,9 @@ fn full_lists_drop_and_count_exactly() {
     let counters = rig.frame.counters();
     assert!(counters.clusters > 0);
     assert_eq!(counters.longest, 5000);
-    assert_eq!(counters.overflowed, counters.clusters);
-    assert_eq!(counters.entries, counters.clusters * 1024);
-    assert_eq!(counters.dropped, counters.clusters * (5000 - 1024));
+    assert_eq!(counters.overflowed, counters.occupied);
+    assert_eq!(counters.entries, counters.occupied * 1024);
+    assert_eq!(counters.folded, counters.occupied * (5000 - 1024));
 }
 
 /// More clusters and longer lists than a frame starts with room for: it grows, and nothing is lost.
@@ -53,7 +53,7 @@ fn room_for_lists_grows_within_the_frame() {
         .replace("[render]", "[render]\nmax_lights_per_cluster = 2048");
     let mut rig = Rig::new(scene(&text));
     let first = rig.render();
-    assert_eq!(rig.frame.counters().dropped, 0);
+    assert_eq!(rig.frame.counters().folded, 0);
     assert_eq!(first, rig.render());
     let brute = Rig::with(scene(&text), |settings| settings.brute_force = true).render();
     let errors = relative_errors(&first, &brute);
@@ -83,7 +83,7 @@ fn more_lights_than_a_loop_may_have_iterations() {
     rig.render();
     let counters = rig.frame.counters();
     assert_eq!(counters.longest, 1 << 20);
-    assert_eq!(counters.dropped, counters.clusters * ((1 << 20) - 1024));
+    assert_eq!(counters.folded, counters.occupied * ((1 << 20) - 1024));
 
     let mut rig = Rig::new(scene(&tiny(&format!("{FIVE_MATERIALS}{}", unranged_lights(70_000)))));
     assert_close(&rig.render(), &oracle(&rig.scene), 0.99, 1e-4);

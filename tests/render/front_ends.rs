@@ -15,6 +15,7 @@ fn rig(front_end: FrontEnd, text: &str, files: &Files<'_>) -> Rig {
 /// Passes of the last picture.
 fn passes(rig: &mut Rig) -> Vec<&'static str> {
     let inputs = amas::FrameInputs {
+        time: 0.0,
         camera: &rig.scene.cameras[0],
         samples: 1,
         exposure: 0.0,

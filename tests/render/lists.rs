@@ -44,8 +44,8 @@ fn check(text: &str) -> f64 {
     let clusters = clusters.clusters.fetch(Use::ComputeWrite).unwrap();
     let lights = &rig.gpu_scene.lights.lights[..rig.gpu_scene.lights.ranged];
     let lists: Vec<Vec<u32>> = {
-        let occupied = rig.frame.counters().clusters as usize;
-        clusters[..occupied].iter().map(|cluster| list(&texels, cluster)).collect()
+        let ids = rig.frame.counters().clusters as usize;
+        clusters[..ids].iter().map(|cluster| list(&texels, cluster)).collect()
     };
     for list in &lists {
         assert!(list.windows(2).all(|pair| pair[0] < pair[1]), "ascending, so without duplicates");

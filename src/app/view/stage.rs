@@ -73,7 +73,7 @@ impl Stage {
             split: false,
             progress: indicatif::ProgressBar::hidden(),
         })?;
-        if !self.warned && frame.counters().dropped > 0 {
+        if !self.warned && frame.counters().overflowed > 0 {
             report::warn_of_overflow(&frame.counters(), scene.render.max_lights_per_cluster);
             self.warned = true;
         }
