@@ -2,6 +2,7 @@
 //!
 //! prepass → cluster → forward (direct → indirect → present)
 
+mod cut;
 mod results;
 mod settings;
 mod timing;
@@ -31,6 +32,7 @@ pub struct Frame {
     device: Arc<Device>,
     scene: Arc<GpuScene>,
     settings: FrameSettings,
+    work: Work,
     targets: Targets,
     prepass: Prepass,
     cluster: Option<ClusterPass>,
@@ -63,7 +65,7 @@ impl Frame {
         let frame = Self {
             prepass: Prepass::new(&inputs, &targets)?,
             cluster: clustered(work)
-                .then(|| ClusterPass::new(&inputs, work.lists, work.masks))
+                .then(|| ClusterPass::new(&inputs, work))
                 .transpose()?,
             forward: Forward::new(&inputs, &targets, work)?,
             lists: ClusterTargets::new(device, tiles, Capacity::start(tiles, mask))?,
@@ -81,6 +83,7 @@ impl Frame {
             device: device.clone(),
             scene: scene.clone(),
             settings,
+            work,
         };
         frame.bind();
         Ok(frame)
@@ -193,6 +196,9 @@ impl Frame {
         constants.list_capacity = self.lists.capacity.texels;
         constants.area_lights = self.scene.area.count;
         constants.area_texels = self.lists.capacity.mask;
+        if self.work.cut {
+            cut::limits(self.settings.light_error).set(&mut constants, &self.scene.lights);
+        }
         constants.background = self.settings.background;
         self.slices = constants.slice_count;
         self.draws = visible(&self.scene.draws, &constants);
@@ -220,8 +226,11 @@ fn work(scene: &GpuScene, settings: &FrameSettings) -> Work {
     let drawn = !scene.draws.is_empty();
     let first_unranged = if settings.brute_force { 0 } else { lights.ranged };
     let area = if drawn { scene.area.count } else { 0 };
+    let unranged = drawn && lights.lights.len() > first_unranged;
+    let cut = unranged && !lights.moments.is_empty() && settings.light_error > 0.0 && !settings.brute_force;
     Work {
-        unranged: drawn && lights.lights.len() > first_unranged,
+        unranged: unranged && !cut,
+        cut,
         first_unranged: first_unranged as u32,
         background: settings.background != [0.0; 3],
         lists: drawn && first_unranged > 0,
@@ -233,7 +242,7 @@ fn work(scene: &GpuScene, settings: &FrameSettings) -> Work {
 }
 
 fn clustered(work: Work) -> bool {
-    work.lists || work.masks
+    work.lists || work.cut || work.masks
 }
 
 fn pass_names(work: Work) -> Vec<&'static str> {

@@ -18,7 +18,7 @@ use crate::gpu::{
 use crate::light_tree::LightTree;
 use crate::scene::material::PARAMETER_COUNT;
 use crate::scene::{Luminaire as Surface, Material, Model, Parameter, PointLight, Scene, Vertex};
-use crate::shared::{self, LightNode, MaterialRecord};
+use crate::shared::{self, LightNode, MaterialRecord, MomentNode};
 pub use area::{Area, Luminaire};
 use geometry::{Geometry, bounds, origin};
 use glam::Vec3;
@@ -105,7 +105,7 @@ impl GpuScene {
             .collect();
         let lights = LightTree::new(&lights);
         let light_image = light_image(device, &lights.lights)?;
-        let nodes = node_image(device, &lights.nodes)?;
+        let nodes = node_image(device, &lights)?;
         let records: Vec<_> = scene.materials.iter().map(record).collect();
         let records = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
         let set = layout.allocate(shared::scene::SET, 1)?;
@@ -246,15 +246,16 @@ fn record(material: &Material) -> MaterialRecord {
     record
 }
 
-/// Lights as two RGBA32F texels each, with the null light behind them: the padding of the lists.
+/// Lights as two RGBA32F texels each, with null lights behind them: the padding of the lists, and of the last leaf.
 fn light_image(device: &Arc<Device>, lights: &[PointLight]) -> Result<Image> {
     let null = PointLight { position: glam::Vec3::ZERO, intensity: glam::Vec3::ZERO, range: None };
     let row = shared::LIGHTS_PER_ROW as usize;
-    let rows = (lights.len() + 1).div_ceil(row);
+    let nulls = shared::MOMENT_LEAF as usize;
+    let rows = (lights.len() + nulls).div_ceil(row);
     let layer_rows = 1 << shared::LIGHT_ROWS_LOG2;
     let layers = rows.div_ceil(layer_rows);
     let height = if layers > 1 { layer_rows } else { rows };
-    let mut texels: Vec<[f32; 4]> = lights.iter().chain([&null]).flat_map(light_texels).collect();
+    let mut texels: Vec<[f32; 4]> = lights.iter().chain(&vec![null; nulls]).flat_map(light_texels).collect();
     texels.resize(layers * height * row * 2, [0.0; 4]);
     let image = Image::new(
         device,
@@ -271,18 +272,32 @@ fn light_image(device: &Arc<Device>, lights: &[PointLight]) -> Result<Image> {
     Ok(image)
 }
 
-/// The tree as two RGBA32UI texels a node.
-fn node_image(device: &Arc<Device>, nodes: &[LightNode]) -> Result<Image> {
-    let row = 1 << shared::NODES_PER_ROW_LOG2;
-    let rows = nodes.len().div_ceil(row).max(1);
-    let mut texels = nodes.to_vec();
-    texels.resize(rows * row, LightNode::default());
+/// First row, in the texture of the light trees, of the nodes over lights without a range.
+#[must_use]
+pub fn moment_row(lights: &LightTree) -> usize {
+    lights.nodes.len().div_ceil(1 << shared::NODES_PER_ROW_LOG2)
+}
+
+/// The trees in RGBA32UI texels: two a node over lights with a range, eight a node over those without.
+fn node_image(device: &Arc<Device>, lights: &LightTree) -> Result<Image> {
+    type Texel = [u32; 4];
+    const STRIDE: usize = 1 << shared::MOMENT_STRIDE_LOG2;
+    const { assert!(size_of::<MomentNode>() == shared::MOMENT_TEXELS as usize * size_of::<Texel>()) };
+    let row = 2 << shared::NODES_PER_ROW_LOG2;
+    let rows = moment_row(lights) + (lights.moments.len() * STRIDE).div_ceil(row);
+    let mut texels: Vec<Texel> = bytemuck::cast_slice::<LightNode, _>(&lights.nodes).to_vec();
+    texels.resize(moment_row(lights) * row, [0; 4]);
+    for node in &lights.moments {
+        texels.extend(bytemuck::cast::<_, [Texel; shared::MOMENT_TEXELS as usize]>(*node));
+        texels.resize(texels.len().next_multiple_of(STRIDE), [0; 4]);
+    }
+    texels.resize(rows.max(1) * row, [0; 4]);
     let image = Image::new(
         device,
         &ImageDescription {
             name: "light tree",
             format: Format::R32G32B32A32_UINT,
-            size: [2 * row as u32, rows as u32],
+            size: [row as u32, rows.max(1) as u32],
             layers: None,
             mips: 1,
             uses: &[Use::TransferWrite, Use::Texture],

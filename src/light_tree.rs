@@ -4,10 +4,14 @@
 //! 2. Every 32 lights with a range make a leaf, every 8 nodes a parent; a node's box holds its lights' spheres.
 //! 3. Nodes lie in depth-first order, each with the index of the node that follows where it is missed: a walk needs
 //!    no stack.
+//! 4. Many lights without a range get a tree of their own, by [`moments`].
+
+pub mod moments;
 
 use crate::scene::PointLight;
-use crate::shared::{LEAF_COUNT_BITS, LEAF_LIGHTS, LightNode};
+use crate::shared::{LEAF_COUNT_BITS, LEAF_LIGHTS, LightNode, MomentNode};
 use glam::Vec3;
+use moments::LIGHTS_WITHOUT_CUT;
 use rayon::prelude::*;
 
 /// Lights of a leaf.
@@ -26,6 +30,9 @@ pub struct LightTree {
     pub ranged: usize,
     /// Nodes over the lights with a range, in depth-first order.
     pub nodes: Vec<LightNode>,
+    /// Nodes over the lights without a range, in depth-first order, with a null node behind them; empty where the lights
+    /// are few.
+    pub moments: Vec<MomentNode>,
 }
 
 impl LightTree {
@@ -39,8 +46,9 @@ impl LightTree {
         let nodes = build(&ordered);
         let mut unranged = unranged;
         sort_along_curve(&mut unranged);
+        let moments = if unranged.len() > LIGHTS_WITHOUT_CUT { moments::build(&unranged, ranged) } else { vec![] };
         ordered.append(&mut unranged);
-        Self { lights: ordered, ranged, nodes }
+        Self { lights: ordered, ranged, nodes, moments }
     }
 }
 

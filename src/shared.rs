@@ -47,6 +47,14 @@ shared! {
         LEAF_LIGHTS = 32;
         /// Bits of a leaf's light count in `LightNode::lights`.
         LEAF_COUNT_BITS = 6;
+        /// Lights of a leaf of the tree over lights without a range.
+        MOMENT_LEAF = 8;
+        /// Texels of a node of it; an eighth fills two lines of a processor's cache.
+        MOMENT_TEXELS = 7;
+        /// log2 of that.
+        MOMENT_STRIDE_LOG2 = 3;
+        /// log2 of its nodes across the texture of the light trees.
+        MOMENTS_PER_ROW_LOG2 = 6;
         /// log2 of the texels across the occluders' texture.
         BVH_WIDTH_LOG2 = 12;
         /// Texels before the nodes.
@@ -307,6 +315,14 @@ shared! {
             area_lights: uint;
             /// Texels of a cluster's mask of area lights, which lie before the lists; 0: every light reaches every pixel.
             area_texels: uint;
+            /// Nodes of the tree over lights without a range, which clusters cut; 0: `direct_begin` says which are evaluated.
+            moment_nodes: uint;
+            /// First row of them in the texture of the light trees.
+            moment_row: uint;
+            /// Least squared distance from a node that is not opened, in its radii.
+            cut_open2: float;
+            /// Largest error of a node, as a share of a cluster's light.
+            cut_share: float;
         }
         /// Push constants of a draw.
         DrawConstants {
@@ -336,6 +352,23 @@ shared! {
             upper: vec3;
             /// First texel of its list.
             list: uint;
+            /// First texel of its cut: nodes that are far, roots of what each pixel opens, first lights of near leaves, each
+            /// padded to whole texels.
+            cut: uint;
+            /// Nodes.
+            cut_nodes: uint;
+            /// Roots.
+            cut_roots: uint;
+            /// Leaves.
+            cut_leaves: uint;
+            /// Σ power/d² over lights without a range, about.
+            cut_power: float;
+            /// Relative error that the cut is estimated to have.
+            cut_error: float;
+            /// Nodes that the cut's walk met.
+            cut_visits: uint;
+            /// Pixels.
+            pixels: uint;
         }
         /// What the cluster pass counts; the first three words are an indirect dispatch over clusters.
         Counters {
@@ -357,6 +390,10 @@ shared! {
             overflowed: uint;
             /// Lights that the cap cut away, summed over lists.
             dropped: uint;
+            /// Nodes, roots and leaves in all cuts.
+            cut_entries: uint;
+            /// Longest cut.
+            cut_longest: uint;
         }
         /// A node of the light tree: a box that holds its lights' spheres.
         LightNode {
@@ -368,6 +405,41 @@ shared! {
             upper: vec3;
             /// Leaf: first light << LEAF_COUNT_BITS | count; inner node: 0.
             lights: uint;
+        }
+        /// A node of the tree over lights without a range; the power of a light is the mean of its channels' intensities.
+        MomentNode {
+            /// Centroid of power.
+            center: vec3;
+            /// Next node where this one is not opened; of a leaf, the next one.
+            skip: uint;
+            /// Power of its lights.
+            power: float;
+            /// Of a sphere about the centre that holds them.
+            radius: float;
+            /// Relative error at distance d: kink·(radius/d) + skew·(radius/d)³.
+            kink: float;
+            /// See `kink`.
+            skew: float;
+            /// Covariance of power: xx, yy, zz.
+            diagonal: vec3;
+            /// First of its lights.
+            first: uint;
+            /// xy, xz, yz.
+            mixed: vec3;
+            /// From the centre to the centroid of red, along z.
+            shift_zr: float;
+            /// Radiant intensity.
+            intensity: vec3;
+            /// From the centre to the centroid of green, along z.
+            shift_zg: float;
+            /// From the centre to each channel's centroid, along x.
+            shift_x: vec3;
+            /// Of blue, along z.
+            shift_zb: float;
+            /// Along y.
+            shift_y: vec3;
+            /// Trace of the covariance.
+            trace: float;
         }
         /// An area light. Vectors that a kind does not have are 0; first vertices and points are those of the texture.
         AreaRecord {

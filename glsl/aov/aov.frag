@@ -22,9 +22,8 @@ void main() {
     } else if (AOV == AOV_MATERIAL) {
         value = vec4(vec3(float(draw.material)), 1.0);
     } else if (AOV == AOV_LIGHT_COUNT) {
-        uint unranged = frame.light_count - frame.direct_begin;
         ivec2 pixel = ivec2(gl_FragCoord.xy);
-        value = vec4(vec3(float(list_at(pixel).count + unranged + area_count(pixel))), 1.0);
+        value = vec4(vec3(float(list_at(pixel).count + unranged_count(pixel) + area_count(pixel))), 1.0);
     } else {
         value = vec4(1.0);
     }

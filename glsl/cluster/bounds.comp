@@ -40,16 +40,19 @@ void write_bounds(uint id, uint rank) {
     vec3 lower = vec3(1e38);
     vec3 upper = vec3(-1e38);
     float farthest = 0.0;
+    uint pixels = 0u;
     for (uint i = 0u; i < TILE_PIXELS; ++i) {
         if (ranks[i] != rank) continue;
         lower = min(lower, samples[i].xyz);
         upper = max(upper, samples[i].xyz);
         farthest = max(farthest, samples[i].w);
+        ++pixels;
     }
     vec3 eye = abs(frame.eye);
     float pad = PAD * (farthest + 0.1 * max(eye.x, max(eye.y, eye.z)));
     clusters[id].lower = lower - pad;
     clusters[id].upper = upper + pad;
+    clusters[id].pixels = pixels;
     // Until step 5 counts, which it does only where there are lights for lists.
     clusters[id].reaching = 0u;
 }

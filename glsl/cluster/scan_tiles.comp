@@ -30,5 +30,7 @@ void main() {
         counters.longest = 0u;
         counters.overflowed = 0u;
         counters.dropped = 0u;
+        counters.cut_entries = 0u;
+        counters.cut_longest = 0u;
     }
 }

@@ -77,7 +77,8 @@ struct FrameTime {
 
 #[derive(Serialize)]
 struct ErrorEstimate {
-    /// 0 where every light that reaches a pixel is evaluated; `null` where lists overflowed.
+    /// Mean over the pixels with a surface; 0 where every light that reaches a pixel is evaluated, `null` where lists
+    /// overflowed.
     light_relative: Option<f64>,
     indirect_relative: f64,
 }
@@ -133,7 +134,7 @@ impl<'a> Report<'a> {
                 cpu_ms: figure(timings, |t| Some(t.cpu_ms)),
             },
             error_estimate: ErrorEstimate {
-                light_relative: (clusters.dropped_lights == 0).then_some(0.0),
+                light_relative: (clusters.dropped_lights == 0).then(|| frame.light_error()).transpose()?,
                 indirect_relative: 0.0,
             },
             clusters,

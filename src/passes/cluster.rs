@@ -7,15 +7,18 @@
 //! 5. `count`: lights that reach each cluster, by a walk over the light tree.
 //! 6. `scan_lists`: where each list lies.
 //! 7. `write`: the lists, in Hilbert order, four indices a texel.
+//! 8. `cut_count`, `scan_cuts`, `cut_write`: the same for the nodes that stand for lights without a range.
 //!
 //! Ids and lists come from scans, never from atomics, so they are the same on every run. Step 4 is recorded only where the
-//! scene has many area lights, steps 5 to 7 where it has lights with a range, and the others where it has either.
+//! scene has many area lights, steps 5 to 7 where it has lights with a range, step 8 where it has many without, and the
+//! others where it has any of these.
 
+use super::forward::Work;
 use super::{PassInputs, View};
 use crate::error::{Error, Result};
 use crate::gpu::{
     Buffer, BufferUse, Commands, ComputePipeline, DescriptorSet, Device, Format, Image, ImageDescription,
-    Specialization, Use, shaders,
+    Shader, Specialization, Use, shaders,
 };
 use crate::shared::{self, Cluster, Counters, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, Tile};
 use std::sync::Arc;
@@ -135,38 +138,56 @@ pub struct ClusterPass {
     scan_tiles: ComputePipeline,
     bounds: ComputePipeline,
     lists: Option<Lists>,
+    cuts: Option<Lists>,
     area: Option<ComputePipeline>,
 }
 
-/// Those of the lists.
+/// Those of lists or cuts.
 struct Lists {
     count: ComputePipeline,
-    scan_lists: ComputePipeline,
+    scan: ComputePipeline,
     write: ComputePipeline,
 }
 
+impl Lists {
+    fn record(&self, cmd: &mut Commands, sets: &[DescriptorSet<'_>], counters: &Buffer<Counters>) {
+        cmd.bind_compute(&self.count, sets);
+        cmd.dispatch_indirect(counters);
+        cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
+        cmd.bind_compute(&self.scan, sets);
+        cmd.dispatch([1, 1, 1]);
+        cmd.memory_barrier(Use::ComputeWrite, Use::IndirectRead);
+        cmd.bind_compute(&self.write, sets);
+        cmd.dispatch_indirect(counters);
+    }
+}
+
 impl ClusterPass {
-    /// Compiles the steps: lists for lights with a range, masks for area lights.
+    /// Compiles the steps: lists for lights with a range, cuts for those without, masks for area lights.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, lists: bool, masks: bool) -> Result<Self> {
+    pub fn new(inputs: &PassInputs<'_>, work: Work) -> Result<Self> {
         let step = |shader| {
             ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, &Specialization::default())
         };
-        let of_lists = || -> Result<Lists> {
-            Ok(Lists {
-                count: step(shaders::CLUSTER_COUNT_COMP)?,
-                scan_lists: step(shaders::CLUSTER_SCAN_LISTS_COMP)?,
-                write: step(shaders::CLUSTER_WRITE_COMP)?,
-            })
+        let steps = |[count, scan, write]: [Shader; 3]| -> Result<Lists> {
+            Ok(Lists { count: step(count)?, scan: step(scan)?, write: step(write)? })
         };
+        let lists =
+            [shaders::CLUSTER_COUNT_COMP, shaders::CLUSTER_SCAN_LISTS_COMP, shaders::CLUSTER_WRITE_COMP];
+        let cuts = [
+            shaders::CLUSTER_CUT_COUNT_COMP,
+            shaders::CLUSTER_SCAN_CUTS_COMP,
+            shaders::CLUSTER_CUT_WRITE_COMP,
+        ];
         Ok(Self {
             slices: step(shaders::CLUSTER_SLICES_COMP)?,
             scan_tiles: step(shaders::CLUSTER_SCAN_TILES_COMP)?,
             bounds: step(shaders::CLUSTER_BOUNDS_COMP)?,
-            lists: lists.then(of_lists).transpose()?,
-            area: masks.then(|| step(shaders::CLUSTER_AREA_COMP)).transpose()?,
+            lists: work.lists.then(|| steps(lists)).transpose()?,
+            cuts: work.cut.then(|| steps(cuts)).transpose()?,
+            area: work.masks.then(|| step(shaders::CLUSTER_AREA_COMP)).transpose()?,
         })
     }
 
@@ -190,14 +211,12 @@ impl ClusterPass {
                 cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
             }
             if let Some(lists) = &self.lists {
-                cmd.bind_compute(&lists.count, &sets);
-                cmd.dispatch_indirect(&targets.counters);
+                lists.record(cmd, &sets, &targets.counters);
+            }
+            if let Some(cuts) = &self.cuts {
+                // They lie behind the lists, and use the same counters.
                 cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
-                cmd.bind_compute(&lists.scan_lists, &sets);
-                cmd.dispatch([1, 1, 1]);
-                cmd.memory_barrier(Use::ComputeWrite, Use::IndirectRead);
-                cmd.bind_compute(&lists.write, &sets);
-                cmd.dispatch_indirect(&targets.counters);
+                cuts.record(cmd, &sets, &targets.counters);
             }
         });
     }

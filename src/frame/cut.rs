@@ -1,0 +1,30 @@
+//! How fine the cuts of the tree over lights without a range are, by the error that the scene allows.
+
+use crate::gpu_scene::moment_row;
+use crate::light_tree::LightTree;
+use crate::shared::FrameConstants;
+
+/// What a node must keep to stand for its lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Limits {
+    /// Least distance from it, in its radii.
+    open: f32,
+    /// Largest error, as a share of the light at the cluster.
+    share: f32,
+}
+
+/// The limits that keep the mean relative error within `light_error`.
+pub(super) fn limits(light_error: f32) -> Limits {
+    Limits { open: (1.8 * (0.005 / light_error).sqrt()).max(1.2), share: 0.6 * light_error.powf(1.5) }
+}
+
+impl Limits {
+    /// Tells the shaders.
+    pub(super) fn set(self, constants: &mut FrameConstants, lights: &LightTree) {
+        // Without the null node behind them.
+        constants.moment_nodes = lights.moments.len() as u32 - 1;
+        constants.moment_row = moment_row(lights) as u32;
+        constants.cut_open2 = self.open * self.open;
+        constants.cut_share = self.share;
+    }
+}
