@@ -31,8 +31,10 @@ vec3 reflected_node(Surface s, uint index) {
     float cosine = above.x * (1.0 + 7.5 * dot(u, su) - 1.5 * trace) - 3.0 * dot(n, su) * above.y;
     vec3 slope = (n - 3.0 * wi.z * u) * (above.y * inverse);
     vec3 cosines = max(vec3(max(cosine, 0.0)) + m.shifts * slope, vec3(0.0));
-    // The direction from which the part above the horizon comes; its cosine is divided out again.
-    vec3 bent = normalize(vec3(wi.xy, max(above.x, MIN_BENT)));
+    // Where the irradiance comes from in the mean, c + S∇f/f: of the product of BSDF and irradiance this keeps the gradients'.
+    vec3 weighted = offset + m.covariance * ((n * above.y - 3.0 * above.x * u) * (inverse / max(above.x, MIN_BENT)));
+    vec3 bent = normalize(weighted) * s.world_from_local;
+    bent = normalize(vec3(bent.xy, max(bent.z, max(above.x, MIN_BENT))));
     return bsdf_eval_cos(s.bsdf, bent) * (m.intensity * cosines * (inverse2 / bent.z));
 }
 

@@ -87,7 +87,7 @@ fn world(text: &str, lights: Vec<PointLight>) -> Scene {
 }
 
 fn matte() -> String {
-    let mut text = FIVE_MATERIALS.to_owned();
+    let mut text = FIVE_MATERIALS.replace("sigma = 30", std::env::var("SIGMA").as_deref().unwrap_or("sigma = 0"));
     for name in ["plastic", "metal", "substrate", "principled"] {
         text = text.replace(&format!("material = \"{name}\""), "material = \"matte\"");
     }
