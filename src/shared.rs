@@ -49,9 +49,9 @@ shared! {
         LEAF_COUNT_BITS = 6;
         /// Lights of a leaf of the tree over lights without a range.
         MOMENT_LEAF = 8;
-        /// Texels of a node of it; an eighth fills two lines of a processor's cache.
-        MOMENT_TEXELS = 7;
-        /// log2 of that.
+        /// Texels of a node of it.
+        MOMENT_TEXELS = 6;
+        /// log2 of the texels from one to the next: two lines of a processor's cache.
         MOMENT_STRIDE_LOG2 = 3;
         /// log2 of its nodes across the texture of the light trees.
         MOMENTS_PER_ROW_LOG2 = 6;
@@ -323,6 +323,8 @@ shared! {
             cut_open2: float;
             /// Largest error of a node, as a share of a cluster's light.
             cut_share: float;
+            /// Largest squared radius of a node, of the scale on which a lobe changes.
+            cut_lobe2: float;
         }
         /// Push constants of a draw.
         DrawConstants {
@@ -410,36 +412,36 @@ shared! {
         MomentNode {
             /// Centroid of power.
             center: vec3;
+            /// Of a sphere about the centre that holds the lights.
+            radius: float;
+            /// Power of the lights.
+            power: float;
+            /// Relative error at distance d, as half floats a | b << 16: a·(radius/d) + b·(radius/d)³.
+            errors: uint;
             /// Next node where this one is not opened; of a leaf, the next one.
             skip: uint;
-            /// Power of its lights.
-            power: float;
-            /// Of a sphere about the centre that holds them.
-            radius: float;
-            /// Relative error at distance d: kink·(radius/d) + skew·(radius/d)³.
-            kink: float;
-            /// See `kink`.
-            skew: float;
+            /// First of the lights.
+            first: uint;
             /// Covariance of power: xx, yy, zz.
             diagonal: vec3;
-            /// First of its lights.
-            first: uint;
+            /// From the centre to each channel's centroid, along x: three times 10 bits with a sign, in radii.
+            shift_x: uint;
             /// xy, xz, yz.
             mixed: vec3;
-            /// From the centre to the centroid of red, along z.
-            shift_zr: float;
+            /// Along y.
+            shift_y: uint;
             /// Radiant intensity.
             intensity: vec3;
-            /// From the centre to the centroid of green, along z.
-            shift_zg: float;
-            /// From the centre to each channel's centroid, along x.
-            shift_x: vec3;
-            /// Of blue, along z.
-            shift_zb: float;
+            /// Along z.
+            shift_z: uint;
+            /// Extent below and above the centre along x, in radii, as 16-bit fractions a | b << 16.
+            extent_x: uint;
             /// Along y.
-            shift_y: vec3;
-            /// Trace of the covariance.
-            trace: float;
+            extent_y: uint;
+            /// Along z.
+            extent_z: uint;
+            /// Lights.
+            count: uint;
         }
         /// An area light. Vectors that a kind does not have are 0; first vertices and points are those of the texture.
         AreaRecord {

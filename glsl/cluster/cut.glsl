@@ -2,9 +2,9 @@
 // quadrature: worst-case bounds are 250 times too pessimistic to steer by, so each node may have the same share of the
 // cluster's light, and the constants are calibrated (src/frame/cut.rs).
 //
-// The including shader defines ON_NODE(index, share), ON_ROOT(index) and ON_LEAF(index): a node that fits, its error as a
+// The including shader defines ON_NODE(index, share), ON_ROOT(index) and ON_LEAF(first): a node that fits, its error as a
 // part of what it may be; one smaller than the cluster that does not, so that each pixel opens it for itself; a leaf that
-// does not. Each invocation walks alone and in the tree's order, so no subgroup size is assumed.
+// does not, by its first light. Each invocation walks alone and in the tree's order, so no subgroup size is assumed.
 //
 // A walk meets a few thousand nodes at most, because none smaller than the cluster is opened: lavapipe ends an
 // invocation's loops after 65,535 iterations in all.
@@ -57,7 +57,7 @@ void cut(vec3 lower, vec3 upper, float limit, inout uint visits) {
     while (index < frame.moment_nodes) {
         MomentHead node = moment_head(index);
         float d2 = box_distance2(lower, upper, node.center);
-        float error = node_error(node.power, node.radius, node.kink, node.skew, d2);
+        float error = node_error(node.power, node.radius, node.errors, d2);
         bool dark = node.power == 0.0;
         bool fits = dark || node_fits(node.radius, d2, error, frame.cut_open2, limit);
         bool leaf = !fits && is_leaf(index, node);
@@ -66,7 +66,7 @@ void cut(vec3 lower, vec3 upper, float limit, inout uint visits) {
             ON_NODE(index, error)
         }
         if (leaf) {
-            ON_LEAF(index)
+            ON_LEAF(node.first)
         }
         if (root) {
             ON_ROOT(index)

@@ -18,7 +18,7 @@ float errors2 = 0.0;  // of the limit's square
 float inverse_limit = 0.0;
 #define ON_NODE(index, error) ++nodes; errors2 += sqr(error * inverse_limit);
 #define ON_ROOT(index) ++roots;
-#define ON_LEAF(index) ++leaves;
+#define ON_LEAF(first) ++leaves;
 #include "cluster/cut.glsl"
 
 void main() {

@@ -38,7 +38,7 @@ Writer roots;
 Writer leaves;
 #define ON_NODE(index, error) append(nodes, index);
 #define ON_ROOT(index) append(roots, index);
-#define ON_LEAF(index) append(leaves, moment_first(index));
+#define ON_LEAF(first) append(leaves, first);
 #include "cluster/cut.glsl"
 
 void main() {

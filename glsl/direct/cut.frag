@@ -27,12 +27,12 @@ vec3 opened(Surface s, Lobe lobe, uint root, float limit) {
         MomentHead node = moment_head(index);
         vec3 offset = node.center - s.position;
         float d2 = dot(offset, offset);
-        float error = node_error(node.power, node.radius, node.kink, node.skew, d2);
+        float error = node_error(node.power, node.radius, node.errors, d2);
         bool fits = node.power == 0.0
                                 || (node_fits(node.radius, d2, error, frame.cut_open2, limit) && lobe_fits(lobe, offset, d2, node.radius));
         bool leaf = !fits && node.skip == index + 1u;
         if (fits) sum += reflected_node(s, index);
-        uint light = leaf ? moment_first(index) : 0u;
+        uint light = leaf ? node.first : 0u;
         uint behind = leaf ? light + MOMENT_LEAF : 0u;
         for (; light < behind; ++light) sum += reflected(s, light);
         index = fits || leaf ? node.skip : index + 1u;
@@ -40,11 +40,42 @@ vec3 opened(Surface s, Lobe lobe, uint root, float limit) {
     return sum;
 }
 
-vec3 opened_four(Surface s, Lobe lobe, uvec4 four, float limit) {
+// A node that the cluster accepted, unless the pixel's lobe has to see it opened.
+bool accepted(Surface s, Lobe lobe, uint index) {
+    vec4 place = moment_place(index);
+    vec3 offset = place.xyz - s.position;
+    return lobe_fits(lobe, offset, dot(offset, offset), place.w);
+}
+
+vec3 far_node(Surface s, Lobe lobe, uint index) {
+    vec3 radiance = reflected_node(s, index);
+    return !lobe_is_narrow() || accepted(s, lobe, index) ? radiance : vec3(0.0);
+}
+
+vec3 near_leaf(Surface s, uint first) {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < 4u; ++i) {
-        sum += opened(s, lobe, four.x, limit);
-        four = four.yzwx;
+    for (uint i = 0u; i < MOMENT_LEAF; ++i) sum += reflected(s, first + i);
+    return sum;
+}
+
+// What the pixel opens: roots, and nodes too large for its lobe. A loop of its own finds the next of them: lavapipe runs a
+// loop's body at least once, and a walk's costs ten times a test.
+vec3 opened_nodes(Surface s, Lobe lobe, Cut cut) {
+    float limit = frame.cut_share * cut.power;
+    uint roots = 4u * (cut.roots - cut.texel);
+    uint end = 4u * (cut.leaves - cut.texel);
+    uint entry = lobe_is_narrow() ? 0u : roots;
+    vec3 sum = vec3(0.0);
+    while (entry < end) {
+        uint index = frame.moment_nodes;
+        bool found = false;
+        while (!found && entry < end) {
+            index = list_indices(cut.texel + entry / 4u)[entry & 3u];
+            found = entry >= roots || !accepted(s, lobe, index);
+            ++entry;
+        }
+        // The null node where none was left.
+        sum += opened(s, lobe, found ? index : frame.moment_nodes, limit);
     }
     return sum;
 }
@@ -53,28 +84,21 @@ void main() {
     Surface s = surface_here();
     Lobe lobe = lobe_here(s);
     Cut cut = cut_at(ivec2(gl_FragCoord.xy));
-    float limit = frame.cut_share * cut.power;
     vec3 sum = vec3(0.0);
     for (uint texel = cut.texel; texel < cut.roots; ++texel) {
         uvec4 four = list_indices(texel);
-        if (lobe_is_narrow()) {
-            sum += opened_four(s, lobe, four, limit);
-        } else {
-            sum += reflected_node(s, four.x);
-            sum += reflected_node(s, four.y);
-            sum += reflected_node(s, four.z);
-            sum += reflected_node(s, four.w);
-        }
-    }
-    for (uint texel = cut.roots; texel < cut.leaves; ++texel) {
-        sum += opened_four(s, lobe, list_indices(texel), limit);
+        sum += far_node(s, lobe, four.x);
+        sum += far_node(s, lobe, four.y);
+        sum += far_node(s, lobe, four.z);
+        sum += far_node(s, lobe, four.w);
     }
     for (uint texel = cut.leaves; texel < cut.end; ++texel) {
         uvec4 four = list_indices(texel);
-        for (uint i = 0u; i < 4u * MOMENT_LEAF; ++i) {
-            sum += reflected(s, four.x + (i & (MOMENT_LEAF - 1u)));
-            if ((i & (MOMENT_LEAF - 1u)) == MOMENT_LEAF - 1u) four = four.yzwx;
-        }
+        sum += near_leaf(s, four.x);
+        sum += near_leaf(s, four.y);
+        sum += near_leaf(s, four.z);
+        sum += near_leaf(s, four.w);
     }
+    sum += opened_nodes(s, lobe, cut);
     radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

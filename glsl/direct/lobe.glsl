@@ -8,9 +8,6 @@ struct Lobe {
     float width2;  // squared, radians
 };
 
-// Radius of a node over the scale on which the lobe changes; see tests/render/unranged.rs.
-const float LOBE_SHARE = 0.7;
-
 // Whether the model has a lobe that may be narrower than a cosine; known when the pipeline is compiled.
 bool lobe_is_narrow() { return MODEL != MODEL_MATTE; }
 
@@ -33,7 +30,7 @@ bool lobe_fits(Lobe lobe, vec3 offset, float d2, float radius) {
     float extent = radius * inverse;
     vec3 apart = offset * inverse - lobe.mirror;
     float least = max(sqrt(dot(apart, apart)) - extent, 0.0);
-    return extent * extent <= LOBE_SHARE * LOBE_SHARE * (lobe.width2 + least * least);
+    return extent * extent <= frame.cut_lobe2 * (lobe.width2 + least * least);
 }
 
 #endif

@@ -4,10 +4,10 @@
 #define LIB_CUT_GLSL
 
 // A node's error at squared distance d2, in W·sr⁻¹·m⁻²: its irradiance times its relative error.
-float node_error(float power, float radius, float kink, float skew, float d2) {
+float node_error(float power, float radius, vec2 errors, float d2) {
     precise float inverse = inversesqrt(d2);
     precise float x = radius * inverse;
-    precise float relative = x * (kink + skew * x * x);
+    precise float relative = x * (errors.x + errors.y * x * x);
     precise float error = relative * (power * inverse * inverse);
     return error;
 }

@@ -11,11 +11,13 @@ pub(super) struct Limits {
     open: f32,
     /// Largest error, as a share of the light at the cluster.
     share: f32,
+    /// Largest radius as seen from a pixel, of the scale on which the surface's narrowest lobe changes there.
+    lobe: f32,
 }
 
 /// The limits that keep the mean relative error within `light_error`.
 pub(super) fn limits(light_error: f32) -> Limits {
-    Limits { open: (1.8 * (0.005 / light_error).sqrt()).max(1.2), share: 0.6 * light_error.powf(1.5) }
+    Limits { open: (2.2 * (0.005 / light_error).powf(0.75)).max(1.2), share: (6.0 * light_error * light_error).min(0.1 * light_error), lobe: std::env::var("LOBE").map_or(0.7, |v| v.parse().unwrap()) }
 }
 
 impl Limits {
@@ -26,5 +28,6 @@ impl Limits {
         constants.moment_row = moment_row(lights) as u32;
         constants.cut_open2 = self.open * self.open;
         constants.cut_share = self.share;
+        constants.cut_lobe2 = self.lobe * self.lobe;
     }
 }

@@ -10,7 +10,6 @@ mod sums;
 
 use crate::scene::PointLight;
 use crate::shared::{MOMENT_LEAF, MomentNode};
-use glam::DVec3;
 use rayon::prelude::*;
 use sums::Sums;
 
@@ -67,26 +66,56 @@ fn node(sums: &Sums, lights: &[PointLight], first: u32) -> MomentNode {
     let farthest = lights.iter().map(|light| light.position.as_dvec3().distance_squared(center.as_dvec3()));
     let radius = farthest.fold(0.0, f64::max).sqrt() * (1.0 + 1e-6);
     let [diagonal, mixed] = sums.covariance();
-    let shift = sums.shifts();
-    let of_axis = |axis: usize| shift.map(|shift: DVec3| shift[axis] as f32);
-    let [kink, skew] = sums.errors(radius);
-    let [shift_zr, shift_zg, shift_zb] = of_axis(2);
+    let shifts = sums.shifts().map(|shift| if radius > 0.0 { shift / radius } else { shift });
+    let extents = |axis: usize| {
+        let places = lights.iter().map(|light| f64::from(light.position[axis]) - f64::from(center[axis]));
+        let (below, above) = places.fold((0.0, 0.0), |(below, above), at| (f64::max(below, -at), f64::max(above, at)));
+        fractions([below, above].map(|extent| if radius > 0.0 { extent / radius } else { 0.0 }))
+    };
     MomentNode {
         center: center.to_array(),
-        skip: 0,
-        power: sums.power() as f32,
         radius: radius as f32,
-        kink: kink as f32,
-        skew: skew as f32,
-        diagonal: diagonal.as_vec3().to_array(),
+        power: sums.power() as f32,
+        errors: halves(sums.errors(radius)),
+        skip: 0,
         first,
+        diagonal: diagonal.as_vec3().to_array(),
+        shift_x: tens(shifts.map(|shift| shift.x)),
         mixed: mixed.as_vec3().to_array(),
-        shift_zr,
+        shift_y: tens(shifts.map(|shift| shift.y)),
         intensity: sums.intensity.map(|intensity| intensity as f32),
-        shift_zg,
-        shift_x: of_axis(0),
-        shift_zb,
-        shift_y: of_axis(1),
-        trace: diagonal.element_sum() as f32,
+        shift_z: tens(shifts.map(|shift| shift.z)),
+        extent_x: extents(0),
+        extent_y: extents(1),
+        extent_z: extents(2),
+        count: lights.len() as u32,
     }
 }
+
+/// Two positive numbers as half floats, rounded up; at least 2⁻¹⁴ unless 0, at most 65504.
+fn halves(values: [f64; 2]) -> u32 {
+    let half = |value: f64| {
+        if value == 0.0 {
+            return 0;
+        }
+        let bits = (value.clamp(2.0_f64.powi(-14), 65504.0) as f32).to_bits();
+        // The exponent's bias goes from 127 to 15, the mantissa from 23 bits to 10.
+        (bits.div_ceil(1 << 13) - (112 << 10)).min(0x7bff)
+    };
+    half(values[0]) | half(values[1]) << 16
+}
+
+/// Two numbers in [0, 1] as 16 bits each, rounded up.
+fn fractions(values: [f64; 2]) -> u32 {
+    let bits = values.map(|value| (value.min(1.0) * 65535.0).ceil() as u32);
+    bits[0] | bits[1] << 16
+}
+
+/// Three numbers in [−1, 1] as 10 bits each.
+fn tens(values: [f64; 3]) -> u32 {
+    let bits = values.map(|value| (value.clamp(-1.0, 1.0) * 511.0).round() as i32 as u32 & 1023);
+    bits[0] | bits[1] << 10 | bits[2] << 20
+}
+
+#[cfg(test)]
+mod tests;

@@ -94,6 +94,14 @@ fn matte() -> String {
     text
 }
 
+/// Spheres with narrow lobes.
+fn smooth() -> String {
+    FIVE_MATERIALS
+        .replace("roughness = 0.4\n[[material]]\nname = \"metal", "alpha = 0.05\n[[material]]\nname = \"metal")
+        .replace("alpha = [0.2, 0.4]", "alpha = 0.1")
+        .replace("roughness = 0.5\nanisotropic = 0.5", "alpha = 0.02")
+}
+
 struct Figures {
     mean: f64,
     p99: f64,
@@ -145,7 +153,7 @@ fn figures(world: &Scene, brute: &HdrImage, light_error: f32) -> Figures {
 #[test]
 fn explore() {
     let count: usize = std::env::var("COUNT").map_or(30_000, |v| v.parse().unwrap());
-    let text = match std::env::var("SCENE").as_deref() { Ok("five") => FIVE_MATERIALS.to_owned(), _ => matte() };
+    let text = match std::env::var("SCENE").as_deref() { Ok("five") => FIVE_MATERIALS.to_owned(), Ok("smooth") => smooth(), _ => matte() };
     for kind in KINDS {
         println!("{kind:?}");
         let world = world(&text, lights(kind, count));

@@ -13,10 +13,10 @@ use glam::DVec3;
 
 /// Error at the horizon: the share of a node's standard deviation, seen from the surface, by which a cosine that is
 /// clamped within the node is off. Found by simulation, as are the next.
-const KINK: f64 = 0.1;
+const KINK: f64 = 0.07;
 /// Share of the third moment, of what colours' second moments differ by, and of the fourth that a pixel sees: the mean
 /// over directions and the partial cancellation among nodes.
-const SKEW: f64 = 0.5;
+const SKEW: f64 = 0.8;
 /// Distance in radii at which the terms beyond the second are taken; a node is opened from nearer than 1.2, and one
 /// accepted from farther than 4 has next to no error.
 const REFERENCE: f64 = 2.0;
@@ -186,6 +186,3 @@ fn triple_norm(t: &[f64; 10]) -> f64 {
     let weight = |i: usize| [1.0, 3.0, 6.0][usize::from(i >= 3) + usize::from(i == 9)];
     t.iter().enumerate().map(|(i, v)| weight(i) * v * v).sum::<f64>().sqrt()
 }
-
-#[cfg(test)]
-mod tests;
