@@ -29,7 +29,7 @@ vec3 opened(Surface s, Lobe lobe, uint root, float limit) {
         float d2 = dot(offset, offset);
         float error = node_error(node.power, node.radius, node.errors, d2);
         bool fits = node.power == 0.0
-                                || (node_fits(node.radius, d2, error, frame.cut_open2, limit) && lobe_fits(lobe, offset, d2, node.radius));
+                                || (node_fits(node.radius, d2, error, frame.cut_open2, limit) && lobe_fits(lobe, node, offset, d2, limit));
         bool leaf = !fits && node.skip == index + 1u;
         if (fits) sum += reflected_node(s, index);
         uint light = leaf ? node.first : 0u;
@@ -41,15 +41,15 @@ vec3 opened(Surface s, Lobe lobe, uint root, float limit) {
 }
 
 // A node that the cluster accepted, unless the pixel's lobe has to see it opened.
-bool accepted(Surface s, Lobe lobe, uint index) {
-    vec4 place = moment_place(index);
-    vec3 offset = place.xyz - s.position;
-    return lobe_fits(lobe, offset, dot(offset, offset), place.w);
+bool accepted(Surface s, Lobe lobe, uint index, float limit) {
+    MomentHead node = moment_head(index);
+    vec3 offset = node.center - s.position;
+    return lobe_fits(lobe, node, offset, dot(offset, offset), limit);
 }
 
-vec3 far_node(Surface s, Lobe lobe, uint index) {
+vec3 far_node(Surface s, Lobe lobe, uint index, float limit) {
     vec3 radiance = reflected_node(s, index);
-    return !lobe_is_narrow() || accepted(s, lobe, index) ? radiance : vec3(0.0);
+    return !lobe_is_narrow() || accepted(s, lobe, index, limit) ? radiance : vec3(0.0);
 }
 
 vec3 near_leaf(Surface s, uint first) {
@@ -60,8 +60,7 @@ vec3 near_leaf(Surface s, uint first) {
 
 // What the pixel opens: roots, and nodes too large for its lobe. A loop of its own finds the next of them: lavapipe runs a
 // loop's body at least once, and a walk's costs ten times a test.
-vec3 opened_nodes(Surface s, Lobe lobe, Cut cut) {
-    float limit = frame.cut_share * cut.power;
+vec3 opened_nodes(Surface s, Lobe lobe, Cut cut, float limit) {
     uint roots = 4u * (cut.roots - cut.texel);
     uint end = 4u * (cut.leaves - cut.texel);
     uint entry = lobe_is_narrow() ? 0u : roots;
@@ -71,7 +70,7 @@ vec3 opened_nodes(Surface s, Lobe lobe, Cut cut) {
         bool found = false;
         while (!found && entry < end) {
             index = list_indices(cut.texel + entry / 4u)[entry & 3u];
-            found = entry >= roots || !accepted(s, lobe, index);
+            found = entry >= roots || !accepted(s, lobe, index, limit);
             ++entry;
         }
         // The null node where none was left.
@@ -84,13 +83,14 @@ void main() {
     Surface s = surface_here();
     Lobe lobe = lobe_here(s);
     Cut cut = cut_at(ivec2(gl_FragCoord.xy));
+    float limit = frame.cut_share * cut.power;
     vec3 sum = vec3(0.0);
     for (uint texel = cut.texel; texel < cut.roots; ++texel) {
         uvec4 four = list_indices(texel);
-        sum += far_node(s, lobe, four.x);
-        sum += far_node(s, lobe, four.y);
-        sum += far_node(s, lobe, four.z);
-        sum += far_node(s, lobe, four.w);
+        sum += far_node(s, lobe, four.x, limit);
+        sum += far_node(s, lobe, four.y, limit);
+        sum += far_node(s, lobe, four.z, limit);
+        sum += far_node(s, lobe, four.w, limit);
     }
     for (uint texel = cut.leaves; texel < cut.end; ++texel) {
         uvec4 four = list_indices(texel);
@@ -99,6 +99,6 @@ void main() {
         sum += near_leaf(s, four.z);
         sum += near_leaf(s, four.w);
     }
-    sum += opened_nodes(s, lobe, cut);
+    sum += opened_nodes(s, lobe, cut, limit);
     radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

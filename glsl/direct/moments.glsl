@@ -30,10 +30,13 @@ vec3 node_cosines(Surface s, Moments m, vec3 offset, float inverse2, out vec3 be
     vec3 sn = m.covariance * n * inverse2;
     float trace = (m.covariance[0].x + m.covariance[1].y + m.covariance[2].z) * inverse2;
     float mu = dot(n, u);
-    // Lights above a surface often lie just above it: no wider than they reach below their centre.
+    // Lights above a surface often lie just above it: no wider than they reach below their centre, unless that is through
+    // the surface.
     vec3 low = max(n * m.below, -n * m.above);
     float depth = (low.x + low.y + low.z) * inverse;
-    vec2 above = above_horizon(mu, min(UNIFORM2 * dot(n, sn), depth * depth));
+    float through = clamp(4.0 * (depth - mu) / max(depth, MIN_BENT), 0.0, 1.0);
+    float wide = UNIFORM2 * dot(n, sn);
+    vec2 above = above_horizon(mu, lerp(min(wide, depth * depth), wide, through));
     float cosine = above.x * (1.0 + 7.5 * dot(u, su) - 1.5 * trace) - 3.0 * dot(n, su) * above.y;
     vec3 slope = (n - 3.0 * mu * u) * (above.y * inverse);
     bent = vec3(0.0, 0.0, 1.0);

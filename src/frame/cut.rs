@@ -17,7 +17,7 @@ pub(super) struct Limits {
 
 /// The limits that keep the mean relative error within `light_error`.
 pub(super) fn limits(light_error: f32) -> Limits {
-    Limits { open: (2.2 * (0.005 / light_error).powf(0.75)).max(1.2), share: (6.0 * light_error * light_error).min(0.1 * light_error), lobe: std::env::var("LOBE").map_or(0.7, |v| v.parse().unwrap()) }
+    Limits { open: (2.2 * (0.005 / light_error).powf(0.75)).max(1.2), share: (5.0 * light_error * light_error).min(0.08 * light_error), lobe: std::env::var("LOBE").map_or(0.7, |v| v.parse().unwrap()) }
 }
 
 impl Limits {

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 /// Error at the horizon: the share of a node's standard deviation, seen from the surface, by which a cosine that is
 /// clamped within the node is off. Found by simulation, as are the next.
-const KINK: f64 = 0.07;
+const KINK: f64 = 0.04;
 /// Share of the third moment, of what colours' second moments differ by, and of the fourth that a pixel sees: the mean
 /// over directions and the partial cancellation among nodes.
 const SKEW: f64 = 0.8;
