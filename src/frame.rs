@@ -2,6 +2,7 @@
 //!
 //! prepass → cluster → resolve → forward (direct → indirect → present)
 
+mod cut;
 mod results;
 mod settings;
 mod timing;
@@ -261,6 +262,9 @@ impl Frame {
         constants.list_capacity = self.lists.capacity.texels;
         constants.area_lights = self.scene.area.count;
         constants.area_texels = self.lists.capacity.mask;
+        if self.work.cut {
+            cut::limits(self.settings.light_error).set(&mut constants, &self.scene.lights);
+        }
         constants.background = self.settings.background;
         self.slices = constants.slice_count;
         self.draws = visible(&self.scene.draws, &constants);
@@ -296,8 +300,11 @@ fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
     };
     let resolve = lists && compute && !scene.resolved.specializations.is_empty();
     let area = if drawn { scene.area.count } else { 0 };
+    let unranged = drawn && lights.lights.len() > first_unranged;
+    let cut = unranged && !lights.moments.is_empty() && settings.light_error > 0.0 && !settings.brute_force;
     Work {
-        unranged: drawn && lights.lights.len() > first_unranged,
+        unranged: unranged && !cut,
+        cut,
         first_unranged: first_unranged as u32,
         background: settings.background != [0.0; 3],
         lists,
@@ -312,7 +319,7 @@ fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
 }
 
 fn clustered(work: Work) -> bool {
-    work.lists || work.masks
+    work.lists || work.cut || work.masks
 }
 
 fn pass_names(work: Work) -> Vec<&'static str> {

@@ -21,6 +21,7 @@ use crate::shared::{self, MaterialRecord};
 pub use area::{Area, Luminaire};
 use geometry::{Geometry, bounds, origin};
 use glam::Vec3;
+pub use lights::moment_row;
 use lights::{LightImages, placed};
 use occluders::Occluders;
 use rayon::prelude::*;

@@ -83,6 +83,14 @@ shared! {
         LEAF_LIGHTS = 32;
         /// Leaves of a top node.
         TOP_LEAVES = 64;
+        /// Lights of a leaf of the tree over lights without a range.
+        MOMENT_LEAF = 8;
+        /// Texels of a node of it.
+        MOMENT_TEXELS = 6;
+        /// log2 of the texels from one to the next: two lines of a processor's cache.
+        MOMENT_STRIDE_LOG2 = 3;
+        /// log2 of its nodes across the texture of the light trees.
+        MOMENTS_PER_ROW_LOG2 = 6;
         /// log2 of the texels across the occluders' texture.
         BVH_WIDTH_LOG2 = 12;
         /// Texels before the nodes.
@@ -249,6 +257,8 @@ shared! {
         SPEC_LANES = 46;
         /// The variant that the pipeline resolves.
         SPEC_RESOLVED = 44;
+        /// Clusters note their pixels.
+        SPEC_NOTE_PIXELS = 47;
         /// Clusters note the variants of their pixels.
         SPEC_NOTE_VARIANTS = 45;
     }
@@ -390,6 +400,16 @@ shared! {
             sibling_texels: uint;
             /// First texel of lists of clusters.
             list_texels: uint;
+            /// Nodes of the tree over lights without a range, which clusters cut; 0: `direct_begin` says which are evaluated.
+            moment_nodes: uint;
+            /// First row of them in the texture of the light trees.
+            moment_row: uint;
+            /// Least squared distance from a node that is not opened, in its radii.
+            cut_open2: float;
+            /// Largest error of a node, as a share of a cluster's light.
+            cut_share: float;
+            /// Largest squared radius of a node, of the scale on which a lobe changes.
+            cut_lobe2: float;
         }
         /// Push constants of a draw.
         DrawConstants {
@@ -435,6 +455,23 @@ shared! {
             folded: uint;
             /// Estimate of the relative error that folding causes in it.
             error: float;
+            /// First texel of its cut: nodes that are far, roots of what each pixel opens, first lights of near leaves, each
+            /// padded to whole texels.
+            cut: uint;
+            /// Nodes.
+            cut_nodes: uint;
+            /// Roots.
+            cut_roots: uint;
+            /// Leaves.
+            cut_leaves: uint;
+            /// Σ power/d² over lights without a range, about.
+            cut_power: float;
+            /// Relative error that the cut is estimated to have.
+            cut_error: float;
+            /// Nodes that the cut's walk met.
+            cut_visits: uint;
+            /// Its pixels.
+            pixel_count: uint;
         }
         /// Work of one pipeline of the resolve; the first three words are an indirect dispatch.
         ResolveDispatch {
@@ -489,6 +526,10 @@ shared! {
             folding: uint;
             /// Bits of the largest estimate of the relative error that folding causes in a cluster.
             fold_error: uint;
+            /// Nodes, roots and leaves in all cuts.
+            cut_entries: uint;
+            /// Longest cut.
+            cut_longest: uint;
         }
         /// A node of the light tree: a box that holds its lights' spheres.
         LightNode {
@@ -498,6 +539,41 @@ shared! {
             first: uint;
             /// Upper corner.
             upper: vec3;
+            /// Lights.
+            count: uint;
+        }
+        /// A node of the tree over lights without a range; the power of a light is the mean of its channels' intensities.
+        MomentNode {
+            /// Centroid of power.
+            center: vec3;
+            /// Of a sphere about the centre that holds the lights.
+            radius: float;
+            /// Power of the lights.
+            power: float;
+            /// Relative error at distance d, as half floats a | b << 16: a·(radius/d) + b·(radius/d)³.
+            errors: uint;
+            /// Next node where this one is not opened; of a leaf, the next one.
+            skip: uint;
+            /// First of the lights.
+            first: uint;
+            /// Covariance of power: xx, yy, zz.
+            diagonal: vec3;
+            /// From the centre to each channel's centroid, along x: three times 10 bits with a sign, in radii.
+            shift_x: uint;
+            /// xy, xz, yz.
+            mixed: vec3;
+            /// Along y.
+            shift_y: uint;
+            /// Radiant intensity.
+            intensity: vec3;
+            /// Along z.
+            shift_z: uint;
+            /// Extent below and above the centre along x, in radii, as 16-bit fractions a | b << 16.
+            extent_x: uint;
+            /// Along y.
+            extent_y: uint;
+            /// Along z.
+            extent_z: uint;
             /// Lights.
             count: uint;
         }

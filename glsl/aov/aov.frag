@@ -36,8 +36,7 @@ void main() {
     } else if (AOV == AOV_MATERIAL) {
         value = vec4(vec3(float(draw.material)), 1.0);
     } else if (AOV == AOV_LIGHT_COUNT) {
-        uint unranged = frame.light_count - frame.direct_begin;
-        value = vec4(vec3(float(list_at(pixel).count + unranged + area_count(pixel))), 1.0);
+        value = vec4(vec3(float(list_at(pixel).count + unranged_count(pixel) + area_count(pixel))), 1.0);
     } else if (AOV == AOV_CLUSTER) {
         uint id = cluster_at(pixel);
         value = vec4(vec3(id == NO_CLUSTER ? -1.0 : float(id)), 1.0);

@@ -32,6 +32,35 @@ LightList list_at(ivec2 pixel) { return list_of(cluster_at(pixel)); }
 // Four indices of a list; past its end they name the null light.
 uvec4 list_indices(uint texel) { return texelFetch(light_lists, list_texel(texel), 0); }
 
+// A cluster's cut: texels of nodes, of roots from `roots` on, of leaves from `leaves` on.
+struct Cut {
+    uint texel;
+    uint roots;
+    uint leaves;
+    uint end;
+    float power;  // Σ power/d² at the cluster
+};
+
+Cut cut_at(ivec2 pixel) {
+    uint id = cluster_at(pixel);
+    if (id >= frame.cluster_capacity) return Cut(0u, 0u, 0u, 0u, 0.0);
+    uint texel = clusters[id].cut;
+    uint roots = texel + (clusters[id].cut_nodes + 3u) / 4u;
+    uint leaves = roots + (clusters[id].cut_roots + 3u) / 4u;
+    uint end = leaves + (clusters[id].cut_leaves + 3u) / 4u;
+    // As with lists.
+    if (end > frame.list_capacity) return Cut(0u, 0u, 0u, 0u, 0.0);
+    return Cut(texel, roots, leaves, end, clusters[id].cut_power);
+}
+
+// Nodes and lights without a range that a pixel evaluates; what it opens counts as one.
+uint unranged_count(ivec2 pixel) {
+    if (frame.moment_nodes == 0u) return frame.light_count - frame.direct_begin;
+    uint id = cluster_at(pixel);
+    if (id >= frame.cluster_capacity) return 0u;
+    return clusters[id].cut_nodes + clusters[id].cut_roots + MOMENT_LEAF * clusters[id].cut_leaves;
+}
+
 // 32 area lights from number 32 · word on: a bit for those that reach the cluster.
 uint area_mask(uint cluster, uint word) {
     if (cluster >= frame.cluster_capacity) return 0u;

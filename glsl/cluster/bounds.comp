@@ -16,7 +16,8 @@ layout(set = SET_frame, binding = FRAME_CLUSTER_IDS_OUT, r32ui) writeonly unifor
 layout(set = SET_frame, binding = FRAME_TILES, std430) readonly buffer TileBlock { Tile tiles[]; };
 layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) writeonly buffer ClusterBlock { Cluster clusters[]; };
 
-// Whether the resolve asks which pixels a cluster has, and of which variants.
+// Whether the resolve or a cut asks which pixels a cluster has, and the resolve of which variants.
+layout(constant_id = 47) const bool NOTE_PIXELS = false;
 layout(constant_id = 45) const bool NOTE_VARIANTS = false;
 
 // Relative to the distance: above what interpolating the position and reconstructing it from depth can differ by,
@@ -124,10 +125,11 @@ void write_bounds(uint at, uint tile) {
     if (id >= frame.cluster_capacity) return;
     // Nothing reaches it until step 7 counts, which it does only where there are lights for lists.
     uvec3 note = uvec3(0u);
-    if (NOTE_VARIANTS) {
+    if (NOTE_PIXELS) {
         for (uint column = 0u; column < TILE_SIZE; ++column) note |= notes[(at % TILE_SIZE) * TILE_SIZE + column];
     }
-    clusters[id] = Cluster(lower - pad, 0u, upper + pad, 0u, note.xy, tile, note.z, parents[at], 0u, 0u, 0.0);
+    clusters[id] = Cluster(lower - pad, 0u, upper + pad, 0u, note.xy, tile, note.z, parents[at], 0u, 0u, 0.0, 0u,
+                           0u, 0u, 0u, 0.0, 0.0, 0u, 0u);
 }
 
 void main() {
@@ -154,7 +156,7 @@ void main() {
         uint end = min(first + TILE_SIZE, count);
         for (uint at = first; at < end; ++at) {
             bound_column(at, lane, key, samples);
-            if (NOTE_VARIANTS) note_column(at, lane, key, variants);
+            if (NOTE_PIXELS) note_column(at, lane, key, variants);
             [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) id[row] = key[row] == keys[at] ? ids[at] : id[row];
         }
         barrier();

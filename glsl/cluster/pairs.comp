@@ -35,7 +35,7 @@ uint area_useful(ivec2 pixel, vec3 position) {
 }
 
 TilePairs pairs_of(ivec2 pixel, vec3 position) {
-    uint unranged = frame.light_count - frame.direct_begin;
+    uint unranged = unranged_count(pixel);
     LightList list = list_at(pixel);
     uint area = area_count(pixel);
     uint useful = unranged + area_useful(pixel, position);

@@ -16,10 +16,12 @@ void write_parent(uint parent, uint first, uint count) {
     uint capacity = frame.cluster_capacity;
     uint list = frame.parent_texels + parent * (PARENT_ROOM / 4u);
     if (parent < frame.parent_capacity) {
-        clusters[capacity + parent] = Cluster(vec3(0.0), 0u, vec3(0.0), list, uvec2(0u), 0u, 0u, first, count, 0u, 0.0);
+        clusters[capacity + parent] = Cluster(vec3(0.0), 0u, vec3(0.0), list, uvec2(0u), 0u, 0u, first, count, 0u, 0.0,
+                                               0u, 0u, 0u, 0u, 0.0, 0.0, 0u, 0u);
     }
     for (uint id = first + count; id < min(first + ids_of(count), capacity); ++id) {
-        clusters[id] = Cluster(vec3(0.0), 0u, vec3(0.0), 0u, uvec2(0u), 0u, 0u, parent, 0u, 0u, 0.0);
+        clusters[id] = Cluster(vec3(0.0), 0u, vec3(0.0), 0u, uvec2(0u), 0u, 0u, parent, 0u, 0u, 0.0, 0u,
+                               0u, 0u, 0u, 0.0, 0.0, 0u, 0u);
     }
 }
 
@@ -34,7 +36,7 @@ void write_counters(uint ids, uint parents, uint occupied) {
     uvec2 of_parents = groups(min(parents, frame.parent_capacity), 1u);
     // Of lists, should there be none.
     counters = Counters(of_clusters.x, of_clusters.y, 1u, of_parents.x, of_parents.y, 1u, 0u, 1u, 1u, parents, ids,
-                        occupied, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+                        occupied, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 }
 
 void main() {

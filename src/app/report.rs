@@ -77,8 +77,9 @@ struct FrameTime {
 
 #[derive(Serialize)]
 struct ErrorEstimate {
-    /// 0 where every light that reaches a pixel is evaluated.
-    light_relative: f32,
+    /// Mean over the pixels with a surface, of what folding and cuts cause; 0 where every light that reaches a pixel is
+    /// evaluated.
+    light_relative: f64,
     indirect_relative: f64,
 }
 
@@ -133,7 +134,7 @@ impl<'a> Report<'a> {
                 cpu_ms: figure(timings, |t| Some(t.cpu_ms)),
             },
             error_estimate: ErrorEstimate {
-                light_relative: clusters.max_folded_error,
+                light_relative: frame.light_error()? + f64::from(clusters.max_folded_error),
                 indirect_relative: 0.0,
             },
             clusters,

@@ -90,6 +90,23 @@ impl Frame {
         if self.cluster.is_some() { self.counters } else { Counters::default() }
     }
 
+    /// Estimated mean relative error of the picture last rendered, from the cuts of the tree over lights without a range: over
+    /// the pixels with a surface. 0 where every light that reaches a pixel is evaluated.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn light_error(&self) -> Result<f64> {
+        if !self.work.cut {
+            return Ok(0.0);
+        }
+        let clusters = self.lists.clusters.fetch(Use::ComputeWrite)?;
+        let occupied = &clusters[..clusters.len().min(self.counters.clusters as usize)];
+        let pixels: f64 = occupied.iter().map(|cluster| f64::from(cluster.pixel_count)).sum();
+        let errors =
+            occupied.iter().map(|cluster| f64::from(cluster.pixel_count) * f64::from(cluster.cut_error));
+        Ok(errors.sum::<f64>() / pixels.max(1.0))
+    }
+
     /// The cluster pass's results, for tests of the lists.
     #[must_use]
     pub fn cluster_targets(&self) -> (&Targets, &ClusterTargets) {

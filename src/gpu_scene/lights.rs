@@ -4,9 +4,16 @@ use crate::error::Result;
 use crate::gpu::{DescriptorSet, Device, Format, Image, ImageDescription, Use};
 use crate::light_tree::LightTree;
 use crate::scene::{PointLight, Scene};
-use crate::shared::{self, LightNode};
+use crate::shared::{self, LightNode, MomentNode};
 use glam::Vec3;
 use std::sync::Arc;
+
+/// Null lights behind the others: the padding of lists, and of the last leaf.
+const NULL_LIGHTS: u32 = shared::MOMENT_LEAF;
+/// Texels across the image of the trees.
+const NODE_ROW: usize = 2 << shared::NODES_PER_ROW_LOG2;
+/// Texels from one node over lights without a range to the next.
+const MOMENT_STRIDE: usize = 1 << shared::MOMENT_STRIDE_LOG2;
 
 /// The images that hold lights and tree.
 pub(super) struct LightImages {
@@ -22,7 +29,7 @@ impl LightImages {
             Image::new(device, &ImageDescription { name, format, size, layers, mips: 1, uses })
         };
         let [width, height, layers] = light_extent(tree.lights.len());
-        let node_rows = tree.nodes.len().div_ceil(1 << shared::NODES_PER_ROW_LOG2).max(1) as u32;
+        let node_rows = moment_row(tree) + (tree.moments.len() * MOMENT_STRIDE).div_ceil(NODE_ROW);
         let images = Self {
             lights: image(
                 "lights",
@@ -34,7 +41,7 @@ impl LightImages {
             nodes: image(
                 "light tree",
                 Format::R32G32B32A32_UINT,
-                [2 << shared::NODES_PER_ROW_LOG2, node_rows],
+                [NODE_ROW as u32, node_rows.max(1) as u32],
                 None,
                 Use::Texture,
             )?,
@@ -46,7 +53,7 @@ impl LightImages {
     /// Uploads lights, as many as the images were made for.
     pub(super) fn upload(&self, tree: &LightTree) -> Result<()> {
         self.lights.upload(&[&light_texels(&tree.lights)], Use::ComputeWrite)?;
-        self.nodes.upload(&[&node_texels(&tree.nodes)], Use::Texture)
+        self.nodes.upload(&[&node_texels(tree)], Use::Texture)
     }
 
     pub(super) fn bind(&self, set: DescriptorSet<'_>) {
@@ -72,20 +79,20 @@ pub(super) fn placed(scene: &Scene, t: f64, origin: Vec3) -> LightTree {
     LightTree::new(&lights)
 }
 
-/// Texels across, rows, layers of the image of so many lights and the null light behind them.
+/// Texels across, rows, layers of the image of so many lights and the null lights behind them.
 fn light_extent(lights: usize) -> [u32; 3] {
-    let rows = (lights as u32 + 1).div_ceil(shared::LIGHTS_PER_ROW);
+    let rows = (lights as u32 + NULL_LIGHTS).div_ceil(shared::LIGHTS_PER_ROW);
     let layers = rows.div_ceil(1 << shared::LIGHT_ROWS_LOG2);
     let height = if layers > 1 { 1 << shared::LIGHT_ROWS_LOG2 } else { rows };
     [2 * shared::LIGHTS_PER_ROW, height, layers]
 }
 
-/// Lights as two RGBA32F texels each, with the null light behind them: the padding of the lists.
+/// Lights as two RGBA32F texels each, with null lights behind them.
 fn light_texels(lights: &[PointLight]) -> Vec<[f32; 4]> {
     let null = PointLight { position: Vec3::ZERO, intensity: Vec3::ZERO, range: None };
     let size: u32 = light_extent(lights.len()).iter().product();
     let mut texels = Vec::with_capacity(size as usize);
-    texels.extend(lights.iter().chain([&null]).flat_map(texels_of));
+    texels.extend(lights.iter().chain(&[null; NULL_LIGHTS as usize]).flat_map(texels_of));
     texels.resize(size as usize, [0.0; 4]);
     texels
 }
@@ -100,10 +107,22 @@ fn texels_of(light: &PointLight) -> [[f32; 4]; 2] {
     [[p.x, p.y, p.z, inverse_range2], [i.x, i.y, i.z, floor]]
 }
 
-/// The tree as two RGBA32UI texels a node, whole rows.
-fn node_texels(nodes: &[LightNode]) -> Vec<LightNode> {
-    let row = 1 << shared::NODES_PER_ROW_LOG2;
-    let mut texels = nodes.to_vec();
-    texels.resize(nodes.len().div_ceil(row).max(1) * row, LightNode::default());
+/// First row, in the texture of the light trees, of the nodes over lights without a range.
+#[must_use]
+pub fn moment_row(lights: &LightTree) -> usize {
+    lights.nodes.len().div_ceil(1 << shared::NODES_PER_ROW_LOG2)
+}
+
+/// The trees in whole rows of RGBA32UI texels: two a node over lights with a range, eight a node over those without.
+fn node_texels(tree: &LightTree) -> Vec<[u32; 4]> {
+    type Texels = [[u32; 4]; shared::MOMENT_TEXELS as usize];
+    const { assert!(size_of::<MomentNode>() == size_of::<Texels>()) };
+    let mut texels: Vec<[u32; 4]> = bytemuck::cast_slice::<LightNode, _>(&tree.nodes).to_vec();
+    texels.resize(moment_row(tree) * NODE_ROW, [0; 4]);
+    for node in &tree.moments {
+        texels.extend(bytemuck::cast::<_, Texels>(*node));
+        texels.resize(texels.len().next_multiple_of(MOMENT_STRIDE), [0; 4]);
+    }
+    texels.resize(texels.len().next_multiple_of(NODE_ROW).max(NODE_ROW), [0; 4]);
     texels
 }

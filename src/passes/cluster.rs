@@ -10,10 +10,11 @@
 //! 8. `scan_lists`: where each list lies.
 //! 9. `write`: the lists, in Hilbert order, four indices a texel, from the masks.
 //! 10. `fold`: lists longer than the cap, and those of crowded parents.
+//! 11. `cut_count`, `scan_cuts`, `cut_write`: the nodes that stand for lights without a range.
 //!
 //! Ids and lists come from scans, never from atomics, so they are the same on every run. Step 5 is recorded only where the
 //! scene has many area lights, steps 6 to 9 where it has lights with a range, step 10 once a
-//! frame has needed it, and the others where it has either.
+//! frame has needed it, step 11 where it has many without, and the others where it has any of these.
 
 use super::forward::Work;
 use super::{PassInputs, View};
@@ -183,16 +184,24 @@ pub struct ClusterPass {
     scan_tiles: ComputePipeline,
     bounds: ComputePipeline,
     lists: Option<Lists>,
+    cuts: Option<Cuts>,
     area: Option<ComputePipeline>,
 }
 
-/// Those of the lists.
+/// Those of lists.
 struct Lists {
     gather: ComputePipeline,
     count: ComputePipeline,
     scan_lists: ComputePipeline,
     write: ComputePipeline,
     fold: Option<ComputePipeline>,
+}
+
+/// Those of cuts.
+struct Cuts {
+    count: ComputePipeline,
+    scan: ComputePipeline,
+    write: ComputePipeline,
 }
 
 impl ClusterPass {
@@ -202,7 +211,7 @@ impl ClusterPass {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>, work: Work) -> Result<Self> {
-        let Work { lists, folded: folds, masks, resolve, .. } = work;
+        let Work { lists, folded: folds, masks, resolve, cut, .. } = work;
         let step = |shader| {
             ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, &Specialization::default())
         };
@@ -215,6 +224,16 @@ impl ClusterPass {
                 fold: folds.then(|| step(shaders::CLUSTER_FOLD_COMP)).transpose()?,
             })
         };
+        let of_cuts = || -> Result<Cuts> {
+            Ok(Cuts {
+                count: step(shaders::CLUSTER_CUT_COUNT_COMP)?,
+                scan: step(shaders::CLUSTER_SCAN_CUTS_COMP)?,
+                write: step(shaders::CLUSTER_CUT_WRITE_COMP)?,
+            })
+        };
+        let notes = Specialization::default()
+            .with(shared::SPEC_NOTE_PIXELS, u32::from(resolve || cut))
+            .with(shared::SPEC_NOTE_VARIANTS, u32::from(resolve));
         Ok(Self {
             slices: step(shaders::CLUSTER_SLICES_COMP)?,
             bands: step(shaders::CLUSTER_BANDS_COMP)?,
@@ -223,9 +242,10 @@ impl ClusterPass {
                 inputs.device,
                 &inputs.scene.layout,
                 shaders::CLUSTER_BOUNDS_COMP,
-                &Specialization::default().with(shared::SPEC_NOTE_VARIANTS, u32::from(resolve)),
+                &notes,
             )?,
             lists: lists.then(of_lists).transpose()?,
+            cuts: cut.then(of_cuts).transpose()?,
             area: masks.then(|| step(shaders::CLUSTER_AREA_COMP)).transpose()?,
         })
     }
@@ -256,6 +276,9 @@ impl ClusterPass {
             if let Some(lists) = &self.lists {
                 lists.record(cmd, &sets, targets);
             }
+            if let Some(cuts) = &self.cuts {
+                cuts.record(cmd, &sets, targets);
+            }
         });
     }
 }
@@ -269,15 +292,32 @@ impl Lists {
             (&self.write, Some(OF_CLUSTERS)),
         ];
         let fold = self.fold.iter().map(|fold| (fold, Some(OF_FOLDS)));
-        for (step, groups) in steps.into_iter().chain(fold) {
-            // The scans write the counters, where the dispatches' sizes are.
-            cmd.memory_barrier(Use::ComputeWrite, Use::IndirectRead);
-            cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
-            cmd.bind_compute(step, sets);
-            match groups {
-                Some(groups) => cmd.dispatch_indirect(&targets.counters, groups),
-                None => cmd.dispatch([1, 1, 1]),
-            }
+        record_steps(cmd, sets, targets, steps.into_iter().chain(fold));
+    }
+}
+
+impl Cuts {
+    fn record(&self, cmd: &mut Commands, sets: &[DescriptorSet<'_>], targets: &ClusterTargets) {
+        let steps = [(&self.count, Some(OF_CLUSTERS)), (&self.scan, None), (&self.write, Some(OF_CLUSTERS))];
+        record_steps(cmd, sets, targets, steps);
+    }
+}
+
+/// Records steps, each with the words of the counters that say of how many workgroups, or with one.
+fn record_steps<'a>(
+    cmd: &mut Commands,
+    sets: &[DescriptorSet<'_>],
+    targets: &ClusterTargets,
+    steps: impl IntoIterator<Item = (&'a ComputePipeline, Option<u32>)>,
+) {
+    for (step, groups) in steps {
+        // The scans write the counters, where the dispatches' sizes are.
+        cmd.memory_barrier(Use::ComputeWrite, Use::IndirectRead);
+        cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
+        cmd.bind_compute(step, sets);
+        match groups {
+            Some(groups) => cmd.dispatch_indirect(&targets.counters, groups),
+            None => cmd.dispatch([1, 1, 1]),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Subpass *direct*: the background, lights that are seen, area lights, and point lights without a range.
 //!
-//! The latter reach everything, so a list would only repeat them. Of many area lights, masks say which reach a cluster.
+//! The latter reach everything, so a list would only repeat them: few are evaluated one by one, many through a cut of
+//! their tree for each cluster. Of many area lights, masks say which reach a cluster.
 
 use super::forward::Work;
 use super::luminaires::Luminaires;
@@ -20,6 +21,7 @@ const LIGHTS_PER_DRAW: u32 = 1 << 15;
 /// Pipelines of the subpass; absent where the scene has no use for them.
 pub struct Direct {
     unranged: Option<SurfacePipelines>,
+    cut: Option<SurfacePipelines>,
     area: Option<SurfacePipelines>,
     luminaires: Option<Luminaires>,
     background: Option<GraphicsPipeline>,
@@ -33,6 +35,7 @@ impl Direct {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>, work: Work, at: (&RenderPass, u32)) -> Result<Self> {
         let unranged = || SurfacePipelines::new(inputs, shaders::DIRECT_UNRANGED_FRAG, &[], Blend::Add, at);
+        let cut = || SurfacePipelines::new(inputs, shaders::DIRECT_CUT_FRAG, &[], Blend::Add, at);
         let area = || {
             let masks = [(shared::SPEC_LIGHT_MASKS, u32::from(work.masks))];
             let extra = [&inputs.scene.area.specialization[..], &masks].concat();
@@ -63,6 +66,7 @@ impl Direct {
         };
         Ok(Self {
             unranged: work.unranged.then(unranged).transpose()?,
+            cut: work.cut.then(cut).transpose()?,
             area: (work.area > 0).then(area).transpose()?,
             luminaires: work.luminaires.then(luminaires).transpose()?,
             background: work.background.then(background).transpose()?,
@@ -80,6 +84,9 @@ impl Direct {
         }
         if let Some(luminaires) = &self.luminaires {
             luminaires.draw(cmd, view);
+        }
+        if let Some(cut) = &self.cut {
+            cut.draw(cmd, view, [0; 2]);
         }
         let mut draw = |pipelines: &SurfacePipelines, lights: Range<u32>, most: u32| {
             for first in lights.clone().step_by(most as usize) {

@@ -20,6 +20,8 @@ const DEPTH: u32 = 2;
 pub struct Work {
     /// Point lights evaluated one by one.
     pub unranged: bool,
+    /// Point lights without a range by cuts of their tree, instead.
+    pub cut: bool,
     /// The first of them; the others follow.
     pub first_unranged: u32,
     /// Radiance where no surface is.

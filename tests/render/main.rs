@@ -10,6 +10,7 @@ mod area_cells;
 mod area_shadows;
 mod cameras;
 mod clusters;
+mod cut;
 mod far;
 mod front_ends;
 mod light_textures;

@@ -1,0 +1,37 @@
+//! How fine the cuts of the tree over lights without a range are, by the error that the scene allows.
+
+use crate::gpu_scene::moment_row;
+use crate::light_tree::LightTree;
+use crate::shared::FrameConstants;
+
+/// What a node must keep to stand for its lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Limits {
+    /// Least distance from it, in its radii.
+    open: f32,
+    /// Largest error, as a share of the light at the cluster.
+    share: f32,
+    /// Largest radius as seen from a pixel, of the scale on which the surface's narrowest lobe changes there.
+    lobe: f32,
+}
+
+/// The limits that keep the mean relative error within `light_error`.
+pub(super) fn limits(light_error: f32) -> Limits {
+    Limits {
+        open: (2.2 * (0.005 / light_error).powf(0.75)).max(1.2),
+        share: (5.0 * light_error * light_error).min(0.08 * light_error),
+        lobe: std::env::var("LOBE").map_or(0.7, |v| v.parse().unwrap()),
+    }
+}
+
+impl Limits {
+    /// Tells the shaders.
+    pub(super) fn set(self, constants: &mut FrameConstants, lights: &LightTree) {
+        // Without the null node behind them.
+        constants.moment_nodes = lights.moments.len() as u32 - 1;
+        constants.moment_row = moment_row(lights) as u32;
+        constants.cut_open2 = self.open * self.open;
+        constants.cut_share = self.share;
+        constants.cut_lobe2 = self.lobe * self.lobe;
+    }
+}
