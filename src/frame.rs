@@ -100,11 +100,6 @@ impl Frame {
         // because a buffer was too small.
         loop {
             if let Some(timings) = self.accumulate(inputs)? {
-                if std::env::var_os("AMAS_PROFILE").is_some()
-                    && let Some(r) = &self.resolve
-                {
-                    r.profile(&self.device, &self.view());
-                }
                 return Ok(timings);
             }
         }

@@ -59,17 +59,18 @@ impl Resolve {
             });
             pipelines.collect::<Result<_>>()
         });
+        let materials = material_records(device, &scene.records)?;
+        let set = layout.allocate(shared::resolve::SET, 1)?;
+        set.get(0).image(shared::resolve::RESOLVE_MATERIALS, &materials, Use::Texture);
+        set.get(0).image(shared::resolve::RESOLVE_HDR, &targets.hdr, Use::ComputeWrite);
         let resolve = Self {
             gather: ComputePipeline::new(device, &layout, shaders::RESOLVE_GATHER_COMP, &base)?,
             many: many.collect::<Result<_>>()?,
-            set: layout.allocate(shared::resolve::SET, 1)?,
+            set,
             work: work(device, scene, clusters)?,
-            _materials: materials(device, &scene.records)?,
+            _materials: materials,
         };
-        let set = resolve.set.get(0);
-        set.image(shared::resolve::RESOLVE_MATERIALS, &resolve._materials, Use::Texture);
-        set.image(shared::resolve::RESOLVE_HDR, &targets.hdr, Use::ComputeWrite);
-        set.buffer(shared::resolve::RESOLVE_WORK, &resolve.work);
+        resolve.set.get(0).buffer(shared::resolve::RESOLVE_WORK, &resolve.work);
         Ok(resolve)
     }
 
@@ -81,50 +82,6 @@ impl Resolve {
         self.work = work(device, scene, clusters)?;
         self.set.get(0).buffer(shared::resolve::RESOLVE_WORK, &self.work);
         Ok(())
-    }
-
-    #[allow(missing_docs)]
-    pub fn profile(&self, device: &Arc<Device>, view: &View<'_>) {
-        let sets = [view.frame, view.scene.set.get(0), self.set.get(0)];
-        let time = |f: &dyn Fn(&mut Commands)| {
-            let mut all: Vec<f64> = (0..5)
-                .map(|_| {
-                    let t = cpu_time::ProcessTime::now();
-                    device
-                        .run("p", |cmd| {
-                            f(cmd);
-                            Ok(())
-                        })
-                        .unwrap();
-                    t.elapsed().as_secs_f64() * 1e3
-                })
-                .collect();
-            all.sort_by(f64::total_cmp);
-            all[2]
-        };
-        println!(
-            "gather {:.2}",
-            time(&|cmd| {
-                cmd.bind_compute(&self.gather, &sets);
-                cmd.dispatch([self.many.len() as u32, 1, 1]);
-            })
-        );
-        let words = self.work.fetch(Use::ComputeWrite).unwrap();
-        for (variant, pipelines) in self.many.iter().enumerate() {
-            for (pixels, pipeline) in pipelines.iter().enumerate() {
-                let dispatch = variant * shared::RESOLVE_PIXELS as usize + pixels;
-                let ms = time(&|cmd| {
-                    cmd.bind_compute(pipeline, &sets);
-                    cmd.dispatch_indirect_at(&self.work, dispatch * size_of::<ResolveDispatch>());
-                });
-                println!(
-                    "variant {variant} {:?} pixels {} count {} ms {ms:.2}",
-                    &view.scene.resolved.specializations[variant].values()[..1],
-                    pixels + 1,
-                    words[dispatch * 5 + 4]
-                );
-            }
-        }
     }
 
     /// Adds every listed light.
@@ -154,7 +111,7 @@ fn work(device: &Arc<Device>, scene: &GpuScene, clusters: u32) -> Result<Buffer<
 }
 
 /// The records as texels, a row of each.
-fn materials(device: &Arc<Device>, records: &[MaterialRecord]) -> Result<Image> {
+fn material_records(device: &Arc<Device>, records: &[MaterialRecord]) -> Result<Image> {
     let across = 1 << shared::MATERIALS_PER_ROW_LOG2;
     let rows = records.len().div_ceil(across).max(1);
     let mut texels = records.to_vec();

@@ -215,7 +215,6 @@ fn bench() {
         clusters(&point["clusters"]);
         pairs(&point["pairs"]);
     }
-    for name in PASSES {
-        assert!(table.contains(&format!("\n{name} ")), "{table}");
-    }
+    let named = |passes: &[&str; 5]| passes.iter().all(|name| table.contains(&format!("\n{name} ")));
+    assert!(PASSES.iter().any(named), "{table}");
 }
