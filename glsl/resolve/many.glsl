@@ -1,5 +1,7 @@
 // The many lights of each cluster, for all of its pixels that have one variant: what glsl/indirect/many.frag does, in the
-// same order, but a light that is fetched serves PIXELS pixels of an invocation.
+// same order, but a light that is fetched serves PIXELS pixels of an invocation. The including shader defines PIXELS, 1 to
+// RESOLVE_PIXELS, and EACH repeats a step for them: lavapipe keeps arrays that a loop indexes in memory, which made a
+// light 1.6 times as dear (light_grid, resolve: 57 CPU ms, by hand 36).
 #include "bind/frame.glsl"
 #include "lib/cluster.glsl"
 #include "bind/lists.glsl"

@@ -1,3 +1,4 @@
+// 1 pixel an invocation: see many.glsl.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

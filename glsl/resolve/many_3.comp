@@ -1,3 +1,4 @@
+// 3 pixels an invocation: see many.glsl.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

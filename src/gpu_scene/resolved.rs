@@ -3,11 +3,14 @@
 use super::Variant;
 use crate::gpu::Specialization;
 use crate::scene::Parameter;
+use crate::scene::material::PARAMETER_COUNT;
 use crate::shared;
 use std::ops::Range;
 
-/// Constants of a variant that say how it is shaded without textures.
-const SHADING: Range<u32> = shared::SPEC_MODEL..shared::SPEC_TWO_SIDED + 1;
+/// Constants of a variant that tell of area lights alone.
+const OF_AREA_LIGHTS: [u32; 4] =
+    [shared::SPEC_LTC_SPECULAR, shared::SPEC_LTC_COAT, shared::SPEC_CLOSED_FORM, shared::SPEC_LTC_METALLIC];
+const SLOTS: Range<u32> = shared::SPEC_SLOT..shared::SPEC_SLOT + PARAMETER_COUNT as u32;
 const MASK: u32 = shared::SPEC_SLOT + Parameter::Mask as u32;
 
 /// The variants that compute shades. A texture needs its coordinates and their derivatives, an anisotropic lobe its
@@ -63,12 +66,12 @@ impl Resolved {
 
 fn shading(variant: &Variant) -> Option<Specialization> {
     let values = variant.specialization.values().iter();
-    let textured = |&&(id, _): &&(u32, u32)| id >= shared::SPEC_SLOT && id != MASK;
+    let textured = |&&(id, _): &&(u32, u32)| SLOTS.contains(&id) && id != MASK;
     let oriented = |&&(id, value): &&(u32, u32)| id == shared::SPEC_ANISOTROPIC && value != 0;
     if values.clone().any(|value| textured(&value) || oriented(&value)) {
         return None;
     }
-    let kept = values.filter(|(id, _)| SHADING.contains(id));
+    let kept = values.filter(|(id, _)| *id != MASK && !OF_AREA_LIGHTS.contains(id));
     Some(kept.fold(Specialization::default(), |all, &(id, value)| all.with(id, value)))
 }
 

@@ -61,17 +61,18 @@ impl Resolve {
             });
             pipelines.collect::<Result<_>>()
         });
+        let materials = material_records(device, &scene.records)?;
+        let set = layout.allocate(shared::resolve::SET, 1)?;
+        set.get(0).image(shared::resolve::RESOLVE_MATERIALS, &materials, Use::Texture);
+        set.get(0).image(shared::resolve::RESOLVE_HDR, &targets.hdr, Use::ComputeWrite);
         let resolve = Self {
             gather: ComputePipeline::new(device, &layout, shaders::RESOLVE_GATHER_COMP, &base)?,
             many: many.collect::<Result<_>>()?,
-            set: layout.allocate(shared::resolve::SET, 1)?,
+            set,
             work: work(device, scene, clusters)?,
-            _materials: materials(device, &scene.records)?,
+            _materials: materials,
         };
-        let set = resolve.set.get(0);
-        set.image(shared::resolve::RESOLVE_MATERIALS, &resolve._materials, Use::Texture);
-        set.image(shared::resolve::RESOLVE_HDR, &targets.hdr, Use::ComputeWrite);
-        set.buffer(shared::resolve::RESOLVE_WORK, &resolve.work);
+        resolve.set.get(0).buffer(shared::resolve::RESOLVE_WORK, &resolve.work);
         Ok(resolve)
     }
 
@@ -112,7 +113,7 @@ fn work(device: &Arc<Device>, scene: &GpuScene, clusters: u32) -> Result<Buffer<
 }
 
 /// The records as texels, a row of each.
-fn materials(device: &Arc<Device>, records: &[MaterialRecord]) -> Result<Image> {
+fn material_records(device: &Arc<Device>, records: &[MaterialRecord]) -> Result<Image> {
     let across = 1 << shared::MATERIALS_PER_ROW_LOG2;
     let rows = records.len().div_ceil(across).max(1);
     let mut texels = records.to_vec();
