@@ -64,7 +64,7 @@ impl Frame {
         let frame = Self {
             prepass: Prepass::new(&inputs, &targets)?,
             cluster: clustered(work)
-                .then(|| ClusterPass::new(&inputs, work.lists, work.folded, work.masks))
+                .then(|| ClusterPass::new(&inputs, work.lists, false, work.masks))
                 .transpose()?,
             forward: Forward::new(&inputs, &targets, work)?,
             lists: ClusterTargets::new(device, tiles, Capacity::start(tiles, work.lists, mask))?,
@@ -124,16 +124,15 @@ impl Frame {
         Ok(Some(watch.stop()))
     }
 
-    /// Makes room, and the passes that fold lists if this frame is the first to need them.
+    /// Makes room, and the passes that fold lists where this frame is the first to need them.
     fn grow(&mut self, capacity: Capacity) -> Result<()> {
-        if capacity.folds && !self.work.folded {
-            self.work.folded = true;
-            let inputs = PassInputs {
-                device: &self.device,
-                scene: &self.scene,
-                perspective: self.settings.perspective,
-            };
+        let inputs =
+            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
+        if capacity.folds && !self.lists.capacity.folds {
             self.cluster = Some(ClusterPass::new(&inputs, self.work.lists, true, self.work.masks)?);
+        }
+        if capacity.nodes && !self.work.folded {
+            self.work.folded = true;
             self.forward = Forward::new(&inputs, &self.targets, self.work)?;
         }
         self.lists = ClusterTargets::new(&self.device, tiles_of(self.settings.size), capacity)?;

@@ -11,6 +11,7 @@ mod area_shadows;
 mod cameras;
 mod clusters;
 mod far;
+mod folds;
 mod light_textures;
 mod lists;
 mod luminaires;
