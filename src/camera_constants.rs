@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 const OCTAVES: f64 = 10.0;
 /// A tile whose side is at least this share of the lights' range has clusters for each quadrant: `scenes/million.toml`
 /// evaluates 1.64 pairs for a useful one without, 1.29 with all tiles split.
-const SPLIT: f64 = 0.15;
+const SPLIT: f64 = 0.18;
 /// A tile whose side is less than this share of the lights' range needs no slices …
 const FINE: f64 = 0.05;
 /// … within this many ranges of the eye.

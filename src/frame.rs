@@ -70,7 +70,7 @@ impl Frame {
         let capacity = Capacity::start(tiles, work.lists, mask);
         let frame = Self {
             prepass: Prepass::new(&inputs, &targets, work.resolve)?,
-            cluster: clustered(work).then(|| ClusterPass::new(&inputs, work)).transpose()?,
+            cluster: clustered(work).then(|| ClusterPass::new(&inputs, work, false)).transpose()?,
             resolve: work
                 .resolve
                 .then(|| Resolve::new(&inputs, &targets, work.folded, capacity.clusters))
@@ -147,19 +147,17 @@ impl Frame {
         Ok(Some(watch.stop()))
     }
 
-    /// Makes room, and the passes that fold lists if this frame is the first to need them.
+    /// Makes room, and the passes that fold lists where this frame is the first to need them.
     fn grow(&mut self, capacity: Capacity) -> Result<()> {
-        if capacity.folds && !self.work.folded {
+        let inputs =
+            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
+        if capacity.folds && !self.lists.capacity.folds {
+            self.cluster = Some(ClusterPass::new(&inputs, self.work, true)?);
+        }
+        if capacity.nodes && !self.work.folded {
             self.work.folded = true;
-            let inputs = PassInputs {
-                device: &self.device,
-                scene: &self.scene,
-                perspective: self.settings.perspective,
-            };
-            self.cluster = Some(ClusterPass::new(&inputs, self.work)?);
             if self.work.resolve {
-                self.resolve =
-                    Some(Resolve::new(&inputs, &self.targets, self.work.folded, capacity.clusters)?);
+                self.resolve = Some(Resolve::new(&inputs, &self.targets, true, capacity.clusters)?);
             }
             self.forward = Forward::new(&inputs, &self.targets, self.work)?;
         }

@@ -24,10 +24,10 @@ shared! {
         /// Words of a tile's masks: one for each quadrant.
         TILE_WORDS = 32;
         /// Tiles along a block's side.
-        BLOCK_TILES = 8;
+        BLOCK_TILES = 4;
         /// Bands of slices; a block's clusters of one band have one parent.
         BANDS = 32;
-        /// log2 of the slices of a band: about as deep as a block is wide.
+        /// log2 of the slices of a band.
         BAND_SLICES_LOG2 = 3;
         /// Clusters that one invocation tests a light against; all have one parent.
         SIBLINGS = 4;

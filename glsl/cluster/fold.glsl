@@ -4,8 +4,6 @@
 const vec3 FOLD_POINTS[4] = vec3[](vec3(1.0, 1.0, 1.0), vec3(1.0, -1.0, -1.0), vec3(-1.0, 1.0, -1.0), vec3(-1.0, -1.0, 1.0));
 // Sums: mean irradiance rgb; irradiance at the points; that times positions, and times directions.
 const uint SUMS = 13u;
-// Of the spread of directions in a node to the relative error it causes.
-const float SPREAD_ERROR = 0.5;
 
 shared float node_sums[FOLD_NODES * SUMS * FOLD_NODES];
 shared vec2 spreads[FOLD_NODES];  // irradiance in all, and what the spread of directions takes from its sum
@@ -86,7 +84,9 @@ void write_nodes(uint id, uint first) {
     if (lane != 0u) return;
     vec2 all = vec2(0.0);
     [[unroll]] for (uint i = 0u; i < FOLD_NODES; ++i) all += spreads[i];
-    float error = all.x > 0.0 ? SPREAD_ERROR * all.y / all.x : 0.0;
+    // The share of the irradiance that the spread of directions hides. The largest over the clusters was 1.7 to 2.7 times
+    // the picture's mean error on five materials, for caps of 8 to 128 (tests/render/folds.rs).
+    float error = all.x > 0.0 ? all.y / all.x : 0.0;
     clusters[id].error = error;
     // Not negative, so its bits are in the order of its values; a maximum does not depend on the order of writes.
     atomicMax(counters.fold_error, floatBitsToUint(error));

@@ -21,6 +21,8 @@ layout(set = SET_frame, binding = FRAME_LISTS_OUT, rgba32ui) writeonly uniform u
 
 // Leaves of a top node that one invocation tests.
 const uint LANE_LEAVES = TOP_LEAVES / GATHER_LANES;
+// Leaves that a list holds: with as many as lights, shared memory would be more than the 16 KiB of every device.
+const uint LEAF_ROOM = PARENT_ROOM / 2u;
 
 shared vec3 lowers[GATHER_LANES];
 shared vec3 uppers[GATHER_LANES];
@@ -28,7 +30,7 @@ shared uvec2 counts[GATHER_LANES];
 shared uint tops[32u * GATHER_LANES];
 shared uint met_leaves[TOP_LEAVES];
 shared uint lights[PARENT_ROOM];
-shared uint leaves[PARENT_ROOM];
+shared uint leaves[LEAF_ROOM];
 
 vec3 lower = vec3(1e38);
 vec3 upper = vec3(-1e38);
@@ -88,7 +90,7 @@ uint list_leaves(uint top) {
 void append(uint leaf, uint hits) {
     uvec4 sum = sums(uvec2(uint(bitCount(hits)), uint(hits != 0u)));
     uvec2 at = found + sum.xy;
-    if (hits != 0u && at.y < PARENT_ROOM) leaves[at.y] = leaf;
+    if (hits != 0u && at.y < LEAF_ROOM) leaves[at.y] = leaf;
     for (; hits != 0u && at.x < PARENT_ROOM; hits &= hits - 1u) {
         lights[at.x++] = leaf * LEAF_LIGHTS + uint(findLSB(hits));
     }
@@ -131,7 +133,7 @@ void write_list(uint texel) {
         for (uint at = 4u * lane; at < end; at += 4u * GATHER_LANES) {
             imageStore(light_lists, list_texel(texel + at / 4u), four_lights(at, found.x));
         }
-    } else if (found.y <= PARENT_ROOM) {
+    } else if (found.y <= LEAF_ROOM) {
         for (uint at = 4u * lane; at < found.y; at += 4u * GATHER_LANES) {
             uvec4 four = uvec4(leaves[at], leaves[at + 1u], leaves[at + 2u], leaves[at + 3u]);
             imageStore(light_lists, list_texel(texel + at / 4u), four);
@@ -141,7 +143,7 @@ void write_list(uint texel) {
 
 uint entries() {
     if (found.x <= PARENT_ROOM) return found.x | OF_LIGHTS << PARENT_COUNT_BITS;
-    if (found.y <= PARENT_ROOM) return found.y | OF_LEAVES << PARENT_COUNT_BITS;
+    if (found.y <= LEAF_ROOM) return found.y | OF_LEAVES << PARENT_COUNT_BITS;
     return (frame.direct_begin + LEAF_LIGHTS - 1u) / LEAF_LIGHTS | OF_ALL << PARENT_COUNT_BITS;
 }
 

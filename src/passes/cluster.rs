@@ -1,7 +1,7 @@
 //! Compute: from depth to the light list of each occupied cluster.
 //!
 //! 1. `slices`: which depth slices each tile's pixels lie in; of far tiles, each quadrant's.
-//! 2. `bands`: how many clusters each block of 8 × 8 tiles has in each band of 8 slices.
+//! 2. `bands`: how many clusters each block of 4 × 4 tiles has in each band of 8 slices.
 //! 3. `scan_tiles`: a parent for each block and band that has clusters, and ids for these.
 //! 4. `bounds`: each pixel's cluster id; each cluster's box of samples.
 //! 5. `area`: which area lights reach each cluster, one bit each, in the texels before the lists.
@@ -48,8 +48,10 @@ pub struct Capacity {
     pub mask: u32,
     /// Texels of masks and lists.
     pub texels: u32,
-    /// Some lists are folded.
+    /// Step 10 has lists to make.
     pub folds: bool,
+    /// Some of them end in nodes of folded lights.
+    pub nodes: bool,
 }
 
 impl Capacity {
@@ -58,7 +60,7 @@ impl Capacity {
     pub fn start(tiles: [u32; 2], lists: bool, mask: u32) -> Self {
         let clusters = (area(tiles).max(32) * 2).next_multiple_of(LINEAR_GROUP);
         let parents = if lists { 4 * area(blocks(tiles)) } else { 0 };
-        let room = Self { clusters, parents, mask, texels: 0, folds: false };
+        let room = Self { clusters, parents, mask, texels: 0, folds: false, nodes: false };
         room.with_texels(room.first_texels()[2] + u64::from(area(tiles)) * 32)
     }
 
@@ -86,7 +88,8 @@ impl Capacity {
         let clusters = counters.clusters.max(self.clusters).next_multiple_of(LINEAR_GROUP);
         let parents = if self.parents > 0 { counters.parents.max(self.parents) } else { 0 };
         let folds = self.folds || counters.folding > 0;
-        let larger = Self { clusters, parents, folds, ..self };
+        let nodes = self.nodes || counters.overflowed > 0;
+        let larger = Self { clusters, parents, folds, nodes, ..self };
         // Where clusters were missing, so were their lists: the texels needed are known only next time.
         let lists = u64::from(counters.list_texels.max(self.texels)) - self.first_texels()[2];
         let larger = larger.with_texels(larger.first_texels()[2] + lists);
@@ -210,8 +213,8 @@ impl ClusterPass {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, work: Work) -> Result<Self> {
-        let Work { lists, folded: folds, masks, resolve, cut, .. } = work;
+    pub fn new(inputs: &PassInputs<'_>, work: Work, folds: bool) -> Result<Self> {
+        let Work { lists, masks, resolve, cut, .. } = work;
         let step = |shader| {
             ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, &Specialization::default())
         };

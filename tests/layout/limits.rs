@@ -53,9 +53,14 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             // One workgroup per tile: one invocation per column, or per pixel.
             "cluster/slices.comp" | "cluster/bounds.comp" => Some([tile, 1, 1]),
             "cluster/pairs.comp" | "cluster/floors.comp" => Some([tile, tile, 1]),
-            "cluster/scan_tiles.comp" | "cluster/scan_lists.comp" | "resolve/gather.comp" => {
-                Some([scan, 1, 1])
-            }
+            "cluster/bands.comp" => Some([sized("BANDS"), 1, 1]),
+            "cluster/gather.comp" => Some([sized("GATHER_LANES"), 1, 1]),
+            "cluster/fold.comp" => Some([sized("FOLD_NODES"), 1, 1]),
+            "cluster/count.comp" => Some([linear / sized("SIBLINGS"), 1, 1]),
+            "cluster/scan_tiles.comp"
+            | "cluster/scan_lists.comp"
+            | "cluster/scan_cuts.comp"
+            | "resolve/gather.comp" => Some([scan, 1, 1]),
             // Chosen when the pipeline is made: 8, or 32.
             name if name.starts_with("resolve/many_") => Some([1, 1, 1]),
             // One invocation per element.

@@ -34,7 +34,7 @@ fn structs_lie_in_shaders_as_they_do_in_rust() {
 #[test]
 fn light_nodes_fill_two_texels() {
     let layout = LAYOUTS.iter().find(|layout| layout.name == "LightNode").unwrap();
-    assert_eq!(layout.fields, [("lower", 0), ("skip", 12), ("upper", 16), ("lights", 28)]);
+    assert_eq!(layout.fields, [("lower", 0), ("first", 12), ("upper", 16), ("count", 28)]);
     assert_eq!(layout.size, 32);
 }
 

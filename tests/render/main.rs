@@ -12,6 +12,7 @@ mod cameras;
 mod clusters;
 mod cut;
 mod far;
+mod folds;
 mod front_ends;
 mod light_textures;
 mod lists;
