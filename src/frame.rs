@@ -64,9 +64,7 @@ impl Frame {
         let mask = if work.masks { work.area.div_ceil(shared::AREA_MASK_LIGHTS) } else { 0 };
         let frame = Self {
             prepass: Prepass::new(&inputs, &targets)?,
-            cluster: clustered(work)
-                .then(|| ClusterPass::new(&inputs, work))
-                .transpose()?,
+            cluster: clustered(work).then(|| ClusterPass::new(&inputs, work)).transpose()?,
             forward: Forward::new(&inputs, &targets, work)?,
             lists: ClusterTargets::new(device, tiles, Capacity::start(tiles, mask))?,
             constants: Buffer::new(device, "frame constants", BufferUse::Uniform, 1)?,

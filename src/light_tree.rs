@@ -46,7 +46,8 @@ impl LightTree {
         let nodes = build(&ordered);
         let mut unranged = unranged;
         sort_along_curve(&mut unranged);
-        let moments = if unranged.len() > LIGHTS_WITHOUT_CUT { moments::build(&unranged, ranged) } else { vec![] };
+        let moments =
+            if unranged.len() > LIGHTS_WITHOUT_CUT { moments::build(&unranged, ranged) } else { vec![] };
         ordered.append(&mut unranged);
         Self { lights: ordered, ranged, nodes, moments }
     }

@@ -19,7 +19,7 @@ const LEAF: usize = MOMENT_LEAF as usize;
 const FAN: usize = 8;
 
 /// Up to so many lights without a range every pixel evaluates them all: cut and lists cost more than they save.
-pub const LIGHTS_WITHOUT_CUT: usize = 256;
+pub const LIGHTS_WITHOUT_CUT: usize = 512;
 
 /// Nodes over `lights`, the first of which has index `first` among all lights.
 #[must_use]
@@ -69,7 +69,8 @@ fn node(sums: &Sums, lights: &[PointLight], first: u32) -> MomentNode {
     let shifts = sums.shifts().map(|shift| if radius > 0.0 { shift / radius } else { shift });
     let extents = |axis: usize| {
         let places = lights.iter().map(|light| f64::from(light.position[axis]) - f64::from(center[axis]));
-        let (below, above) = places.fold((0.0, 0.0), |(below, above), at| (f64::max(below, -at), f64::max(above, at)));
+        let (below, above) =
+            places.fold((0.0, 0.0), |(below, above), at| (f64::max(below, -at), f64::max(above, at)));
         fractions([below, above].map(|extent| if radius > 0.0 { extent / radius } else { 0.0 }))
     };
     MomentNode {

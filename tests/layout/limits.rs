@@ -53,7 +53,9 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             // One workgroup per tile: one invocation per column, or per pixel.
             "cluster/slices.comp" | "cluster/bounds.comp" => Some([tile, 1, 1]),
             "cluster/pairs.comp" => Some([tile, tile, 1]),
-            "cluster/scan_tiles.comp" | "cluster/scan_lists.comp" => Some([scan, 1, 1]),
+            "cluster/scan_tiles.comp" | "cluster/scan_lists.comp" | "cluster/scan_cuts.comp" => {
+                Some([scan, 1, 1])
+            }
             // One invocation per element.
             _ => Some([linear, 1, 1]),
         };

@@ -157,7 +157,18 @@ fn apply([diagonal, mixed]: [DVec3; 2], s: DVec3) -> DVec3 {
 
 fn triple(s: DVec3) -> [f64; 10] {
     let [x, y, z] = s.to_array();
-    [x * x * x, y * y * y, z * z * z, x * x * y, x * x * z, y * y * x, y * y * z, z * z * x, z * z * y, x * y * z]
+    [
+        x * x * x,
+        y * y * y,
+        z * z * z,
+        x * x * y,
+        x * x * z,
+        y * y * x,
+        y * y * z,
+        z * z * x,
+        z * z * y,
+        x * y * z,
+    ]
 }
 
 /// The three ways in which a matrix and a vector fill a symmetric tensor, added up.

@@ -76,9 +76,13 @@ fn moments_equal_direct_sums() {
         let total: f64 = lights.iter().map(power).sum();
         let weights: Vec<f64> =
             lights.iter().map(|light| if total > 0.0 { power(light) / total } else { 1e-3 }).collect();
-        let mean: glam::DVec3 = lights.iter().zip(&weights).map(|(light, w)| light.position.as_dvec3() * *w).sum();
+        let mean: glam::DVec3 =
+            lights.iter().zip(&weights).map(|(light, w)| light.position.as_dvec3() * *w).sum();
         let close = |got: f32, want: f64, scale: f64, what: &str| {
-            assert!((f64::from(got) - want).abs() <= 2e-6 * scale + 1e-25, "{name}, {what}: {got}, {want} wanted");
+            assert!(
+                (f64::from(got) - want).abs() <= 2e-6 * scale + 1e-25,
+                "{name}, {what}: {got}, {want} wanted"
+            );
         };
         close(root.power, total, total, "power");
         for axis in 0..3 {
@@ -108,9 +112,12 @@ fn moments_equal_direct_sums() {
             for axis in 0..3 {
                 let first: f64 = lights
                     .iter()
-                    .map(|light| f64::from(light.intensity[channel]) * (f64::from(light.position[axis]) - mean[axis]))
+                    .map(|light| {
+                        f64::from(light.intensity[channel]) * (f64::from(light.position[axis]) - mean[axis])
+                    })
                     .sum();
-                let want = if sum > 0.0 && root.radius > 0.0 { first / sum / f64::from(root.radius) } else { 0.0 };
+                let want =
+                    if sum > 0.0 && root.radius > 0.0 { first / sum / f64::from(root.radius) } else { 0.0 };
                 assert!((shift(axis, channel as u32) - want).abs() <= 1.01 * 0.5 / 511.0, "{name}: shift");
             }
         }
