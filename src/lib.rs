@@ -22,7 +22,7 @@
 //! | [`ltc`] | area lights by linearly transformed cosines: tables, and their fitter |
 //! | [`gpu`] | thin safe layer over `ash`, the only module with `unsafe` |
 //! | [`hilbert`] | the order of points along a Hilbert curve |
-//! | [`light_tree`] | lights in Hilbert order, and the tree over them |
+//! | [`light_tree`] | lights in Hilbert order, the tree over them, and one with moments over lights without a range |
 //! | [`area_lights`] | area lights as texels: outlines, convex pieces, cubature, textures |
 //! | [`bvh`] | a tree over what hides lights: triangles, masks, luminaires |
 //! | [`camera_constants`] | from a camera to what the shaders know of it |

@@ -15,12 +15,15 @@ pub(super) struct Limits {
     lobe: f32,
 }
 
-/// The limits that keep the mean relative error within `light_error`.
+/// The limits that keep mean, tail and bias of the relative error within what `light_error` promises.
+///
+/// Calibrated on the scenes of `tests/render/cut.rs`, where the worst is: up to 0.01 the bias at horizons that cut nodes and
+/// in lobes, both of one sign; above it the least opening, nearer than which no series converges.
 pub(super) fn limits(light_error: f32) -> Limits {
     Limits {
         open: (2.2 * (0.005 / light_error).powf(0.75)).max(1.2),
-        share: (5.0 * light_error * light_error).min(0.08 * light_error),
-        lobe: std::env::var("LOBE").map_or(0.7, |v| v.parse().unwrap()),
+        share: (4.0 * light_error * light_error).min(0.08 * light_error),
+        lobe: (6.0 * light_error.sqrt()).min(1.2),
     }
 }
 

@@ -19,7 +19,7 @@ const LEAF: usize = MOMENT_LEAF as usize;
 const FAN: usize = 8;
 
 /// Up to so many lights without a range every pixel evaluates them all: cut and lists cost more than they save.
-pub const LIGHTS_WITHOUT_CUT: usize = 256;
+pub const LIGHTS_WITHOUT_CUT: usize = 512;
 
 /// Nodes over `lights`, the first of which has index `first` among all lights.
 #[must_use]

@@ -8,8 +8,8 @@ use crate::modules;
 use crate::spirv::{Module, decoration};
 
 /// Structs that shaders take from textures.
-const IN_TEXELS: [&str; 6] =
-    ["LightNode", "BvhHeader", "BvhNode", "BvhTriangle", "MaskedTriangle", "AreaRecord"];
+const IN_TEXELS: [&str; 7] =
+    ["LightNode", "MomentNode", "BvhHeader", "BvhNode", "BvhTriangle", "MaskedTriangle", "AreaRecord"];
 
 #[test]
 fn structs_lie_in_shaders_as_they_do_in_rust() {
@@ -36,6 +36,17 @@ fn light_nodes_fill_two_texels() {
     let layout = LAYOUTS.iter().find(|layout| layout.name == "LightNode").unwrap();
     assert_eq!(layout.fields, [("lower", 0), ("first", 12), ("upper", 16), ("count", 28)]);
     assert_eq!(layout.size, 32);
+}
+
+/// `moment_head` and `moments_at` in glsl/bind/moments.glsl take it apart.
+#[test]
+fn moment_nodes_fill_whole_texels() {
+    let layout = LAYOUTS.iter().find(|layout| layout.name == "MomentNode").unwrap();
+    let places: Vec<_> = layout.fields.iter().map(|field| field.1).collect();
+    assert_eq!(places, [0, 12, 16, 20, 24, 28, 32, 44, 48, 60, 64, 76, 80, 84, 88, 92]);
+    assert_eq!(layout.size, 16 * shared::MOMENT_TEXELS as usize);
+    const { assert!(shared::MOMENT_TEXELS <= 1 << shared::MOMENT_STRIDE_LOG2) };
+    assert_eq!(shared::MOMENTS_PER_ROW_LOG2 + shared::MOMENT_STRIDE_LOG2, shared::NODES_PER_ROW_LOG2 + 1);
 }
 
 /// So do those of the occluders, as glsl/bind/bvh.glsl reads them.
