@@ -76,10 +76,9 @@ uint list_clusters(uint tile, uint block) {
 }
 
 // What the column's samples add to the box of cluster number `at`.
-void bound_column(uint at, uint column, uint key[TILE_SIZE], vec3 samples[TILE_SIZE]) {
+void bound_column(uint at, uint wanted, uint column, uint key[TILE_SIZE], vec3 samples[TILE_SIZE]) {
     vec3 lower = vec3(1e38);
     vec3 upper = vec3(-1e38);
-    uint wanted = keys[at];
     [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) {
         lower = key[row] == wanted ? min(lower, samples[row]) : lower;
         upper = key[row] == wanted ? max(upper, samples[row]) : upper;
@@ -97,9 +96,8 @@ uint variant_bit(ivec2 pixel) {
 }
 
 // What the column adds to the notes of cluster number `at`.
-void note_column(uint at, uint column, uint key[TILE_SIZE], uint variants[TILE_SIZE]) {
+void note_column(uint at, uint wanted, uint column, uint key[TILE_SIZE], uint variants[TILE_SIZE]) {
     uvec3 note = uvec3(0u);
-    uint wanted = keys[at];
     [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) {
         uint bit = 1u << ((row * TILE_SIZE + column) & 31u);
         uvec3 own = uvec3(row < 4u ? bit : 0u, row < 4u ? 0u : bit, variants[row]);
@@ -155,9 +153,11 @@ void main() {
     for (uint first = 0u; first < count; first += TILE_SIZE) {
         uint end = min(first + TILE_SIZE, count);
         for (uint at = first; at < end; ++at) {
-            bound_column(at, lane, key, samples);
-            if (NOTE_PIXELS) note_column(at, lane, key, variants);
-            [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) id[row] = key[row] == keys[at] ? ids[at] : id[row];
+            uint wanted = keys[at];
+            uint found = ids[at];
+            bound_column(at, wanted, lane, key, samples);
+            if (NOTE_PIXELS) note_column(at, wanted, lane, key, variants);
+            [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) id[row] = key[row] == wanted ? found : id[row];
         }
         barrier();
         // One invocation a cluster, so no atomics.

@@ -168,23 +168,27 @@ fn without_a_scene() {
     assert!(lit.count() > 1000);
 }
 
-/// The same bytes on every run, whatever the number of lavapipe's threads.
+/// The same bytes on every run, whatever the number of lavapipe's threads and of our own.
 #[test]
 fn deterministic() {
     let folder = Folder::new();
+    // More lights over the floor than a list holds: they are folded.
+    let lights = "[[light]]\ntype = \"points\"\ngenerate = { count = 500, seed = 2, min = [-1, 0.2, -1], max = [1, 1, 1], \
+                  intensity = [0.1, 1], range = 3 }\n";
+    std::fs::write(folder.path("folds.toml"), format!("{SCENE}{lights}")).unwrap();
     let render = |scene: &[&str], threads: Option<&str>, name: &str| {
         let size = ["--size", "64x48", "--set", "samples=2"];
         let files = ["-o", name, "-o", "last.png", "--aov", "light_count=count.exr"];
         let arguments = [&["render"], scene, &size, &files].concat();
         let mut command = folder.command(&arguments);
         if let Some(threads) = threads {
-            command.env("LP_NUM_THREADS", threads);
+            command.env("LP_NUM_THREADS", threads).env("RAYON_NUM_THREADS", threads);
         }
         let run = Run::of(&mut command, &arguments);
         assert_eq!(run.status, Some(0), "{run:?}");
         [name, "last.png", "count.exr"].map(|name| folder.read(name))
     };
-    for scene in [&["scene.toml"][..], &[]] {
+    for scene in [&["scene.toml"][..], &["folds.toml", "--set", "max_lights_per_cluster=128"], &[]] {
         let first = render(scene, None, "first.exr");
         for threads in [None, Some("0"), Some("1"), Some("2")] {
             let again = render(scene, threads, "again.exr");

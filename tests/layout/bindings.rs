@@ -53,7 +53,7 @@ fn table(shader: &str, set: u32) -> Option<(&'static str, &'static [Binding])> {
         shared::frame::SET => "frame",
         shared::scene::SET => "scene",
         shared::resolve::SET if shader.starts_with("resolve/") => "resolve",
-        shared::pairs::SET if shader == "cluster/pairs.comp" | "cluster/floors.comp" => "pairs",
+        shared::pairs::SET if ["cluster/pairs.comp", "cluster/floors.comp"].contains(&shader) => "pairs",
         shared::material::SET => "material",
         _ => return None,
     };
