@@ -37,6 +37,9 @@ pub(super) struct Clusters {
     overflowed: u32,
     /// Lights beyond the lists' cap, summed over clusters; they are missing from the picture.
     pub(super) dropped_lights: u32,
+    /// Nodes and leaves of all cuts of the tree over lights without a range.
+    cut_entries: u32,
+    longest_cut: u32,
     folded_lights: u32,
     max_folded_error: f64,
 }
@@ -166,7 +169,8 @@ pub(super) fn figure(timings: &[Timings], value: impl Fn(&Timings) -> Option<f64
 
 /// What the last frame's cluster pass counted.
 pub(super) fn clusters(frame: &Frame) -> Clusters {
-    let Counters { clusters, entries, longest, overflowed, dropped, .. } = frame.counters();
+    let Counters { clusters, entries, longest, overflowed, dropped, cut_entries, cut_longest, .. } =
+        frame.counters();
     Clusters {
         grid: frame.grid(),
         occupied: clusters,
@@ -174,6 +178,8 @@ pub(super) fn clusters(frame: &Frame) -> Clusters {
         longest_list: longest,
         overflowed,
         dropped_lights: dropped,
+        cut_entries,
+        longest_cut: cut_longest,
         folded_lights: 0,
         max_folded_error: 0.0,
     }
