@@ -1,4 +1,5 @@
-// Direct subpass: every point light without a range reaches every pixel, so they are evaluated one by one.
+// Direct subpass: every point light without a range reaches every pixel; where they are few, or no error is allowed, they
+// are evaluated one by one.
 // The draw says which of them: see passes/direct.rs.
 #version 450
 #extension GL_GOOGLE_include_directive : require

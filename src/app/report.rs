@@ -35,6 +35,9 @@ pub(super) struct Clusters {
     list_entries: u32,
     longest_list: u32,
     overflowed: u32,
+    /// Nodes and leaves of all cuts of the tree over lights without a range.
+    cut_entries: u32,
+    longest_cut: u32,
     /// Lights beyond the lists' cap, summed over clusters: nodes stand for them.
     folded_lights: u32,
     /// Largest estimate of the mean relative error that this causes in a cluster.
@@ -166,13 +169,17 @@ pub(super) fn figure(timings: &[Timings], value: impl Fn(&Timings) -> Option<f64
 
 /// What the last frame's cluster pass counted.
 pub(super) fn clusters(frame: &Frame) -> Clusters {
-    let Counters { occupied, entries, longest, overflowed, folded, fold_error, .. } = frame.counters();
+    let Counters {
+        occupied, entries, longest, overflowed, folded, fold_error, cut_entries, cut_longest, ..
+    } = frame.counters();
     Clusters {
         grid: frame.grid(),
         occupied,
         list_entries: entries,
         longest_list: longest,
         overflowed,
+        cut_entries,
+        longest_cut: cut_longest,
         folded_lights: folded,
         max_folded_error: f32::from_bits(fold_error),
     }

@@ -11,6 +11,7 @@ mod area_shadows;
 mod cameras;
 mod clusters;
 mod cut;
+mod cut_worlds;
 mod far;
 mod folds;
 mod front_ends;
