@@ -225,7 +225,10 @@ fn work(scene: &GpuScene, settings: &FrameSettings) -> Work {
     let first_unranged = if settings.brute_force { 0 } else { lights.ranged };
     let area = if drawn { scene.area.count } else { 0 };
     let unranged = drawn && lights.lights.len() > first_unranged;
-    let cut = unranged && !lights.moments.is_empty() && settings.light_error > 0.0 && !settings.brute_force;
+    let cut = unranged
+        && !lights.moments.is_empty()
+        && settings.light_error >= cut::LEAST_ERROR
+        && !settings.brute_force;
     Work {
         unranged: unranged && !cut,
         cut,
