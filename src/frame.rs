@@ -299,7 +299,10 @@ fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
     let resolve = lists && compute && !scene.resolved.specializations.is_empty();
     let area = if drawn { scene.area.count } else { 0 };
     let unranged = drawn && lights.lights.len() > first_unranged;
-    let cut = unranged && !lights.moments.is_empty() && settings.light_error > 0.0 && !settings.brute_force;
+    let cut = unranged
+        && !lights.moments.is_empty()
+        && settings.light_error >= cut::LEAST_ERROR
+        && !settings.brute_force;
     Work {
         unranged: unranged && !cut,
         cut,

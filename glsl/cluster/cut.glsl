@@ -6,8 +6,11 @@
 // part of what it may be; one smaller than the cluster that does not, so that each pixel opens it for itself; a leaf that
 // does not, by its first light. Each invocation walks alone and in the tree's order, so no subgroup size is assumed.
 //
-// A walk meets a few thousand nodes at most, because none smaller than the cluster is opened: lavapipe ends an
-// invocation's loops after 65,535 iterations in all.
+// A walk meets a few thousand nodes, because none smaller than the cluster is opened; one that meets more than MAX_VISITS,
+// among lights strewn so that this does not hold, is given up for the whole tree as a root: lavapipe ends an invocation's
+// loops after 65,535 iterations in all, and lights would be lost.
+const uint MAX_VISITS = 32768u;
+
 layout(local_size_x = LINEAR_GROUP) in;
 
 uint cluster_here() {
@@ -51,10 +54,11 @@ float light_at(vec3 lower, vec3 upper, inout uint visits) {
     return sum;
 }
 
-void cut(vec3 lower, vec3 upper, float limit, inout uint visits) {
+// Whether the walk came to its end.
+bool cut(vec3 lower, vec3 upper, float limit, inout uint visits) {
     float size2 = box_radius2(lower, upper);
     uint index = 0u;
-    while (index < frame.moment_nodes) {
+    while (index < frame.moment_nodes && visits < MAX_VISITS) {
         MomentHead node = moment_head(index);
         float d2 = box_distance2(lower, upper, node.center);
         float error = node_error(node.power, node.radius, node.errors, d2);
@@ -74,4 +78,5 @@ void cut(vec3 lower, vec3 upper, float limit, inout uint visits) {
         index = fits || leaf || root ? node.skip : index + 1u;
         ++visits;
     }
+    return index >= frame.moment_nodes;
 }

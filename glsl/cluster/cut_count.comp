@@ -34,7 +34,11 @@ void main() {
     float light = light_at(lower, upper, visits);
     float limit = frame.cut_share * light;
     inverse_limit = limit > 0.0 ? 1.0 / limit : 0.0;
-    cut(lower, upper, limit, visits);
+    if (!cut(lower, upper, limit, visits)) {
+        nodes = 0u;
+        roots = 1u;
+        leaves = 0u;
+    }
     clusters[id].cut_nodes = nodes;
     clusters[id].cut_roots = roots;
     clusters[id].cut_leaves = leaves;

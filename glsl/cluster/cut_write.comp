@@ -51,6 +51,12 @@ void main() {
     nodes = Writer(uvec4(0u), 0u, clusters[id].cut, node_end);
     roots = Writer(uvec4(0u), 0u, node_end, root_end);
     leaves = Writer(uvec4(0u), 0u, root_end, leaf_end);
+    // One root and nothing else is the whole tree, or all of it that is not dark.
+    if (clusters[id].cut_nodes + clusters[id].cut_leaves == 0u && clusters[id].cut_roots == 1u) {
+        append(roots, 0u);
+        finish(roots, frame.moment_nodes);
+        return;
+    }
     uint visits = 0u;
     cut(clusters[id].lower, clusters[id].upper, frame.cut_share * clusters[id].cut_power, visits);
     finish(nodes, frame.moment_nodes);

@@ -4,6 +4,9 @@ use crate::gpu_scene::moment_row;
 use crate::light_tree::LightTree;
 use crate::shared::FrameConstants;
 
+/// Below it every light is evaluated: finer cuts would hold most of the lights.
+pub(super) const LEAST_ERROR: f32 = 0.002;
+
 /// What a node must keep to stand for its lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limits {
