@@ -181,6 +181,10 @@ shared! {
         AOV_SLICE = 6;
         /// Lights of the list over those within range.
         AOV_PAIR_RATIO = 7;
+        /// Lights beyond the cap of the cluster's list.
+        AOV_FOLDED = 8;
+        /// Estimated relative error of the cluster.
+        AOV_LIGHT_ERROR = 9;
         /// Table of the specular lobe of area lights.
         SPEC_LTC_SPECULAR = 12;
         /// Table of the clear coat.

@@ -27,6 +27,21 @@ vec3 pair_ratio(ivec2 pixel) {
     return vec3(within == 0u ? 1.0 : float(list.count) / float(within), float(list.count), float(within));
 }
 
+// Lights of the pixel's cluster beyond its list, and those of the list.
+vec3 folded(ivec2 pixel) {
+    uint id = cluster_at(pixel);
+    if (id >= frame.cluster_capacity) return vec3(0.0);
+    uint kept = min(clusters[id].reaching, frame.max_list);
+    return vec3(float(clusters[id].reaching - kept), float(kept), 0.0);
+}
+
+// Of the pixel's cluster: both estimates, from folds, from its cut.
+vec3 light_error(ivec2 pixel) {
+    uint id = cluster_at(pixel);
+    if (id >= frame.cluster_capacity) return vec3(0.0);
+    return vec3(clusters[id].error + clusters[id].cut_error, clusters[id].error, clusters[id].cut_error);
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     if (AOV == AOV_POSITION) {
@@ -44,6 +59,10 @@ void main() {
         value = vec4(vec3(float(slice_of(frame, view_depth(frame, gl_FragCoord.z)))), 1.0);
     } else if (AOV == AOV_PAIR_RATIO) {
         value = vec4(pair_ratio(pixel), 1.0);
+    } else if (AOV == AOV_FOLDED) {
+        value = vec4(folded(pixel), 1.0);
+    } else if (AOV == AOV_LIGHT_ERROR) {
+        value = vec4(light_error(pixel), 1.0);
     } else {
         value = vec4(1.0);
     }

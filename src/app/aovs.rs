@@ -30,7 +30,7 @@ enum Variable {
 }
 
 /// Every variable by its name.
-const VARIABLES: [(&str, Variable); 9] = [
+const VARIABLES: [(&str, Variable); 11] = [
     ("position", Variable::Surface(Quantity::Position)),
     ("normal", Variable::Surface(Quantity::Normal)),
     ("material", Variable::Surface(Quantity::Material)),
@@ -38,6 +38,8 @@ const VARIABLES: [(&str, Variable); 9] = [
     ("cluster", Variable::Surface(Quantity::Cluster)),
     ("slice", Variable::Surface(Quantity::Slice)),
     ("pair_ratio", Variable::Surface(Quantity::PairRatio)),
+    ("folded", Variable::Surface(Quantity::Folded)),
+    ("light_error", Variable::Surface(Quantity::LightError)),
     ("direct", Variable::Direct),
     ("indirect", Variable::Indirect),
 ];

@@ -31,6 +31,10 @@ pub enum Quantity {
     Slice = shared::AOV_SLICE,
     /// Lights of the list that are evaluated, over those within range; then both. 1 where no light is within range.
     PairRatio = shared::AOV_PAIR_RATIO,
+    /// Lights of the pixel's cluster for which nodes stand: beyond the list's cap; then those of the list.
+    Folded = shared::AOV_FOLDED,
+    /// Estimated relative error of the pixel's cluster, from folded lists and cuts.
+    LightError = shared::AOV_LIGHT_ERROR,
     /// How often the pixel is shaded.
     Coverage = shared::AOV_COVERAGE,
 }

@@ -61,7 +61,7 @@ fn names_of_things() {
         folder.refused(&[&["render", "scene.toml"], words].concat(), parts);
     };
     render(&["--camera", "side"], &["scene.toml", "\"side\"", "choose one of: main"]);
-    render(&["--aov", "albedo=a.exr"], &["\"albedo\"", "pair_ratio, direct or indirect"]);
+    render(&["--aov", "albedo=a.exr"], &["\"albedo\"", "light_error, direct or indirect"]);
     render(&["--aov", "normal"], &["NAME=VALUE"]);
     render(&["--aov", "normal="], &["NAME=VALUE"]);
     folder.refused(

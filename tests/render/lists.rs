@@ -96,7 +96,7 @@ fn orthographic_near_and_far() {
 
 #[test]
 fn sizes_that_are_no_multiple_of_a_tile() {
-    for size in ["[1, 1]", "[7, 9]", "[161, 97]", "[8, 1]"] {
+    for size in ["[1, 1]", "[7, 9]", "[161, 97]", "[8, 1]", "[16384, 1]", "[1, 16384]"] {
         report(
             size,
             &world("position = [0, 3, 9]\ntarget = [0, 0.5, 0]\nvertical_fov = 20\n", NEAR_LIGHTS, size),
