@@ -156,7 +156,10 @@ impl<'a> View<'a> {
         let most = f64::from(MAX_SLICES - 1);
         let [nearest, farthest] = self.depths;
         let tile = f64::from(TILE_SIZE) * 2.0 * self.half.y / self.size.y;
-        let split = |slice: f64, count: u32| (slice.ceil().max(0.0) as u32).min(count);
+        let split = |slice: f64, count: u32| {
+            // Without such lights there are no lists to keep short.
+            if range > 0.0 { (slice.ceil().max(0.0) as u32).min(count) } else { count }
+        };
         if self.perspective {
             let fine = (FINE * range / tile).min(NEAR * range).min(farthest / 2.0);
             // As deep as a tile is wide: Olsson et al. 2012.

@@ -1,7 +1,7 @@
 //! The order of points along a Hilbert curve through their bounds, in linear time.
 //!
-//! Keys have 10 bits an axis, made two levels at a time by a table of the curve's 24 orientations (Hamilton 2006,
-//! «Compact Hilbert indices», sections 2.1 to 2.3). A stable radix sort of three passes orders them.
+//! Keys have 10 bits an axis. They are Skilling's (2004, «Programming the Hilbert curve»), made two levels at a time by a
+//! table of the states that his algorithm can be in. A stable radix sort of three passes orders them.
 
 use glam::Vec3;
 use std::sync::LazyLock;
@@ -10,64 +10,64 @@ use std::sync::LazyLock;
 const BITS: u32 = 10;
 /// Bits of a pass of the sort: a third of a key.
 const DIGIT: u32 = BITS;
-/// Orientations of the curve: 8 corners to enter a cube by, 3 axes to leave it along.
-const STATES: usize = 24;
+/// Orders and signs of the axes, and the sign of the Gray code.
+const STATES: usize = 6 * 8 * 2;
 
-/// Two levels of the curve: `state << 6 | x << 4 | y << 2 | z` to `key << 5 | next state`.
-static STEPS: LazyLock<[u16; 32 * 64]> = LazyLock::new(|| {
-    // More than the 24 states, so that no lookup needs a check.
-    let mut steps = [0; 32 * 64];
+/// Two levels of the curve: `state << 6 | x << 4 | y << 2 | z` to `key << 7 | next state`.
+static STEPS: LazyLock<[u16; 128 * 64]> = LazyLock::new(|| {
+    // More than the states, so that no lookup needs a check.
+    let mut steps = [0; 128 * 64];
     for (index, step) in steps.iter_mut().take(STATES * 64).enumerate() {
         let [x, y, z] = [index >> 4 & 3, index >> 2 & 3, index & 3];
-        let octant = |bit: usize| x >> bit & 1 | (y >> bit & 1) << 1 | (z >> bit & 1) << 2;
-        let (high, state) = Orientation::from_index(index >> 6).step(octant(1));
+        let octant = |bit: usize| [x >> bit & 1, y >> bit & 1, z >> bit & 1];
+        let (high, state) = State::from_index(index >> 6).step(octant(1));
         let (low, state) = state.step(octant(0));
-        *step = ((high << 3 | low) << 5 | state.index()) as u16;
+        *step = ((high << 3 | low) << 7 | state.index()) as u16;
     }
     steps
 });
 
-/// How the curve runs through a cube.
+/// What the levels above did to the bits below them.
 #[derive(Clone, Copy)]
-struct Orientation {
-    /// Corner that it enters by, a bit per axis.
-    entry: usize,
-    /// Axis along which it leaves.
-    axis: usize,
+struct State {
+    /// Which axis stands in each place; the third place has what is left.
+    axes: [usize; 3],
+    /// 1 where a place's bits are inverted.
+    inverted: [usize; 3],
+    /// 1 where the key's are.
+    gray: usize,
 }
 
-impl Orientation {
+/// Orders of the axes.
+const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+
+impl State {
     fn from_index(index: usize) -> Self {
-        Self { entry: index / 3, axis: index % 3 }
+        let bit = |i: usize| index >> i & 1;
+        Self { axes: ORDERS[index >> 4], inverted: [bit(0), bit(1), bit(2)], gray: bit(3) }
     }
 
     fn index(self) -> usize {
-        self.entry * 3 + self.axis
+        let order = ORDERS.iter().position(|order| *order == self.axes).unwrap_or(0);
+        order << 4 | self.gray << 3 | self.inverted[2] << 2 | self.inverted[1] << 1 | self.inverted[0]
     }
 
-    /// When the curve visits an octant of the cube, and how it runs through that.
-    fn step(self, octant: usize) -> (usize, Self) {
-        let rotation = (self.axis + 1) % 3;
-        let gray = rotate_right(octant ^ self.entry, rotation);
-        let place = gray ^ gray >> 1 ^ gray >> 2;
-        // Hamilton's theorem 2.10 and lemma 2.8.
-        let before = place.saturating_sub(1) & !1;
-        let entry = before ^ before >> 1;
-        let along = match place {
-            0 => 0,
-            _ if place & 1 == 0 => (place - 1).trailing_ones() as usize % 3,
-            _ => place.trailing_ones() as usize % 3,
-        };
-        (place, Self { entry: self.entry ^ rotate_left(entry, rotation), axis: (self.axis + along + 1) % 3 })
+    /// Three bits of the key, and the state of the next level.
+    fn step(mut self, octant: [usize; 3]) -> (usize, Self) {
+        let bits: [usize; 3] = std::array::from_fn(|i| octant[self.axes[i]] ^ self.inverted[i]);
+        for (i, bit) in bits.into_iter().enumerate() {
+            if bit == 1 {
+                self.inverted[0] ^= 1;
+            } else {
+                self.axes.swap(0, i);
+                self.inverted.swap(0, i);
+            }
+        }
+        let gray = [bits[0], bits[0] ^ bits[1], bits[0] ^ bits[1] ^ bits[2]];
+        let key = gray.iter().fold(0, |key, bit| key << 1 | (bit ^ self.gray));
+        self.gray ^= gray[2];
+        (key, self)
     }
-}
-
-fn rotate_left(bits: usize, by: usize) -> usize {
-    (bits << by | bits >> (3 - by)) & 7
-}
-
-fn rotate_right(bits: usize, by: usize) -> usize {
-    rotate_left(bits, (3 - by) % 3)
 }
 
 /// Indices of the points in the curve's order; points with equal keys keep theirs.
@@ -108,17 +108,17 @@ fn digit_of(key: u64, digit: usize) -> usize {
     (key >> (digit as u32 * DIGIT)) as usize & ((1 << DIGIT) - 1)
 }
 
-/// Place along the curve of a point of [0, 2^BITS − 1]³, rounded.
-fn key(steps: &[u16; 32 * 64], p: Vec3) -> u32 {
+/// Place along the curve of a point of [0, 2^BITS − 1]³.
+fn key(steps: &[u16; 128 * 64], p: Vec3) -> u32 {
     // Added to 2²³ a float's last bits are the integer: a conversion with its checks costs three times as much.
-    let [x, y, z] = p.to_array().map(|v| (v + 8_388_608.0).to_bits());
+    let [x, y, z] = p.to_array().map(|v| ((v - 0.5).max(0.0) + 8_388_608.0).to_bits());
     let mut state = 0;
     let mut key = 0;
     for level in (0..BITS).step_by(2).rev() {
         let two = |axis: u32| (axis >> level & 3) as usize;
         let step = u32::from(steps[state << 6 | two(x) << 4 | two(y) << 2 | two(z)]);
-        key = key << 6 | step >> 5;
-        state = (step & 31) as usize;
+        key = key << 6 | step >> 7;
+        state = (step & 127) as usize;
     }
     key
 }
@@ -133,7 +133,7 @@ mod tests {
         let mut cells = vec![None; 4096];
         for i in 0..4096_u32 {
             let p = Vec3::new((i & 15) as f32, (i >> 4 & 15) as f32, (i >> 8) as f32);
-            let place = &mut cells[(key(&STEPS, p * 64.0) >> 18) as usize];
+            let place = &mut cells[(key(&STEPS, p * 64.0 + 0.5) >> 18) as usize];
             assert!(place.replace(p).is_none());
         }
         for pair in cells.windows(2) {

@@ -143,9 +143,10 @@ void main() {
     uint variants[TILE_SIZE];
     vec3 samples[TILE_SIZE];
     [[unroll]] for (uint row = 0u; row < TILE_SIZE; ++row) {
-        uvec2 pixel = min(gl_WorkGroupID.xy * TILE_SIZE + uvec2(lane, row), frame.size - 1u);
+        uvec2 at = gl_WorkGroupID.xy * TILE_SIZE + uvec2(lane, row);
+        uvec2 pixel = min(at, frame.size - 1u);
         float z = view_depth(frame, texelFetch(depth_texture, ivec2(pixel), 0).r);
-        key[row] = texelFetch(keys_of_pixels, ivec2(pixel), 0).r;
+        key[row] = at == pixel ? texelFetch(keys_of_pixels, ivec2(pixel), 0).r : NO_CLUSTER;
         samples[row] = world_position(frame, vec2(pixel) + 0.5, z);
         variants[row] = NOTE_VARIANTS ? variant_bit(ivec2(pixel)) : 0u;
         id[row] = NO_CLUSTER;

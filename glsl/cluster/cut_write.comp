@@ -44,6 +44,8 @@ Writer leaves;
 void main() {
     uint id = cluster_here();
     if (id >= min(counters.clusters, frame.cluster_capacity)) return;
+    // Numbers that no cluster took, which would walk the whole tree; and darkness.
+    if (clusters[id].cut_nodes + clusters[id].cut_roots + clusters[id].cut_leaves == 0u) return;
     uint node_end = clusters[id].cut + (clusters[id].cut_nodes + 3u) / 4u;
     uint root_end = node_end + (clusters[id].cut_roots + 3u) / 4u;
     uint leaf_end = root_end + (clusters[id].cut_leaves + 3u) / 4u;

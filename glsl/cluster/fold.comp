@@ -111,14 +111,15 @@ void main() {
     uint lane = gl_LocalInvocationIndex;
     uint id = clusters[workgroup].folded;
     here = clusters[id];
+    if (here.parent >= frame.parent_capacity) return;
     parent = clusters[frame.cluster_capacity + here.parent];
     uint kept = min(here.reaching, frame.max_list);
     begin_list(here.list, (kept + 3u) / 4u);
-    if (end + FOLD_NODES * FOLD_TEXELS > frame.list_capacity) return;
+    bool all_fit = kept == here.reaching;
+    if (end + (all_fit ? 0u : FOLD_NODES * FOLD_TEXELS) > frame.list_capacity) return;
     middle = 0.5 * (here.lower + here.upper);
     offsets = (here.upper - here.lower) * (0.5 * inversesqrt(3.0));
     uint groups = parent_groups(parent);
-    bool all_fit = kept == here.reaching;
 
     for (uint i = lane; i < BINS; i += FOLD_NODES) bins[i] = 0u;
     barrier();

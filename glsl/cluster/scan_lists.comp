@@ -12,6 +12,8 @@ shared uint longest[SCAN_GROUP];
 
 // Whether step 10 makes the list: it is longer than the cap, or its parent's is not of lights.
 bool folds(uint id) {
+    // Where parents have no room yet, the frame is rendered again.
+    if (clusters[id].parent >= frame.parent_capacity) return false;
     uint kind = clusters[frame.cluster_capacity + clusters[id].parent].reaching >> PARENT_COUNT_BITS;
     return clusters[id].reaching > frame.max_list || kind != 0u;
 }
@@ -35,7 +37,8 @@ void main() {
         texels += texels_of(reaching);
         entries += kept;
         overflowed += uint(reaching > kept);
-        folded += reaching - kept;
+        // A sum of so many chunks stays within 32 bits.
+        folded = min(folded + reaching - kept, ~0u / SCAN_GROUP);
         folding += uint(folds(id));
         longest[lane] = max(longest[lane], reaching);
     }

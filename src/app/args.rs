@@ -116,7 +116,7 @@ pub(super) struct RenderOptions {
     /// Camera by name [default: the first]
     #[arg(long, value_name = "NAME")]
     pub(super) camera: Option<String>,
-    /// Frames A up to, not including, B along the camera's path, 30 a second; %04d in FILE is the frame
+    /// Frames A up to, not including, B, 30 a second: the camera on its path, lights that move on theirs; %04d in FILE is the frame
     #[arg(long, value_name = "A..B", value_parser = parse_range)]
     pub(super) frames: Option<std::ops::Range<u32>>,
     /// Report as JSON; its pairs.area_saved counts what the clusters' masks spared of area lights

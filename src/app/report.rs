@@ -257,7 +257,7 @@ pub(super) fn warn_of_overflow(counters: &Counters, cap: u32) {
         let error = 100.0 * f32::from_bits(counters.fold_error);
         complain(format_args!(
             "warning: {} of {} clusters are reached by more than {cap} lights (at most {}); {} list entries were folded, \
-             which changes a cluster by {error:.2} % at most\n  remedy: raise render.max_lights_per_cluster (up to 2048), \
+             which changes a cluster by about {error:.2} % at most\n  remedy: raise render.max_lights_per_cluster (up to 2048), \
              or shorten the lights' ranges",
             counters.overflowed, counters.occupied, counters.longest, counters.folded
         ));

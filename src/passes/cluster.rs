@@ -10,11 +10,13 @@
 //! 8. `scan_lists`: where each list lies.
 //! 9. `write`: the lists, in Hilbert order, four indices a texel, from the masks.
 //! 10. `fold`: lists longer than the cap, and those of crowded parents.
-//! 11. `cut_count`, `scan_cuts`, `cut_write`: the nodes that stand for lights without a range.
+//! 11. `cut_count`: how many nodes of their tree stand for lights without a range.
+//! 12. `scan_cuts`: where each cut lies.
+//! 13. `cut_write`: the cuts.
 //!
 //! Ids and lists come from scans, never from atomics, so they are the same on every run. Step 5 is recorded only where the
 //! scene has many area lights, steps 6 to 9 where it has lights with a range, step 10 once a
-//! frame has needed it, step 11 where it has many without, and the others where it has any of these.
+//! frame has needed it, steps 11 to 13 where it has many without, and the others where it has any of these.
 
 use super::forward::Work;
 use super::{PassInputs, View};

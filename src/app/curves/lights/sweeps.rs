@@ -40,7 +40,7 @@ pub(super) struct Sweep {
 pub(super) const SWEEPS: &[Sweep] = &[
     Sweep {
         name: "light_error",
-        what: "light_error, 65,536 lights without a range",
+        what: "light_error, lights without a range",
         settings: &[
             Setting::LightError(0.0),
             Setting::LightError(0.002),
@@ -53,7 +53,7 @@ pub(super) const SWEEPS: &[Sweep] = &[
     },
     Sweep {
         name: "max_lights_per_cluster",
-        what: "max_lights_per_cluster, 65,536 lights that overlap",
+        what: "max_lights_per_cluster, lights that overlap",
         settings: &[
             Setting::Cap(8),
             Setting::Cap(16),
