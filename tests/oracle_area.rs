@@ -161,3 +161,33 @@ fn same_seed_same_numbers() {
     assert_eq!(estimate(&shape, &[]), estimate(&shape, &[]));
     assert!(estimate(&shape, &[]).value.x < 0.5 * PI);
 }
+
+/// A square whose corner alone peeps over the horizon: no seed may call that dark. Its radiance on a white Lambert plane is
+/// the form factor of the triangle that is above, by Lambert's formula.
+#[test]
+fn a_corner_above_the_horizon_is_found() {
+    let corner = 0.03_f32;
+    let (x, y) = (2.0, 0.0);
+    let lower = corner - 2.0_f32.sqrt();
+    let vertices = vec![
+        Vec3::new(x, y, corner),
+        Vec3::new(x, y + 0.5 * 2.0_f32.sqrt(), 0.5 * (corner + lower)),
+        Vec3::new(x, y, lower),
+        Vec3::new(x, y - 0.5 * 2.0_f32.sqrt(), 0.5 * (corner + lower)),
+    ];
+    let mut light = light(polygon(vertices, vec![]));
+    light.two_sided = true;
+    // Above the plane: a triangle of height and half base `corner`, seen almost edge-on.
+    let above =
+        [[x, -corner, 0.0], [x, corner, 0.0], [x, y, corner]].map(|p| Vec3::from(p).as_dvec3().normalize());
+    let edges = (0..3).map(|i| (above[i], above[(i + 1) % 3]));
+    let want: f64 =
+        edges.map(|(a, b)| a.angle_between(b) * a.cross(b).normalize().z).sum::<f64>().abs() / 2.0;
+    for seed in 0..20 {
+        let emitter = Emitter::new(&light, &[]);
+        let found = reflected(&plane(), &[emitter], 1e-2, seed);
+        let got = found.value.x * std::f64::consts::PI;
+        assert!(got > 0.0 && found.standard_error.x > 0.0, "seed {seed}: {found:?}");
+        assert!((got / want - 1.0).abs() < 0.1, "seed {seed}: {got} for {want}");
+    }
+}

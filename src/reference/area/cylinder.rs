@@ -20,6 +20,12 @@ impl Cylinder {
         Self { start: a, axis: (b - a).normalize_or_zero(), length: (b - a).length(), radius }
     }
 
+    /// Height of the highest point above the plane through `origin` with the unit normal, or more.
+    pub(super) fn highest(&self, origin: DVec3, normal: DVec3) -> f64 {
+        let start = (self.start - origin).dot(normal);
+        start.max(start + self.length * self.axis.dot(normal)) + self.radius
+    }
+
     /// A point of the side that is turned to `origin`; none from inside.
     pub(super) fn sample(&self, origin: DVec3, xi: DVec2) -> Option<Seen> {
         let out = self.perpendicular(origin - self.start);

@@ -26,6 +26,9 @@ const SHIFTS: usize = 8;
 /// Points of each strategy and shift at first, and at most.
 const POINTS: [u32; 2] = [32, 16384];
 
+/// Points of a light that has given none of its light so far: all shifts together find what sends a two-thousandth of it.
+const UNSEEN: u32 = 512;
+
 /// An area light in double precision.
 #[derive(Clone, Debug)]
 pub struct Emitter<'a> {
@@ -120,6 +123,16 @@ impl<'a> Emitter<'a> {
         }
     }
 
+    /// Whether none of the light can reach the surface's upper side.
+    fn below(&self, surface: &Surface) -> bool {
+        let normal = surface.frame.to_world(DVec3::Z);
+        let (highest, front) = match &self.shape {
+            Shape::Planar(shape) => shape.highest(surface.position, normal),
+            Shape::Cylinder(shape) => (shape.highest(surface.position, normal), true),
+        };
+        highest <= 0.0 || !(front || self.two_sided)
+    }
+
     /// Radiance leaving towards the observer.
     fn emitted(&self, seen: &Seen) -> DVec3 {
         if !(seen.front || self.two_sided) {
@@ -184,6 +197,12 @@ impl<'a> Running<'a> {
         self.points = points;
     }
 
+    /// Whether no point has given light so far, though the light's corner above the horizon may be one that few points
+    /// find: eight estimates of 0 have no spread.
+    fn unseen(&self, surface: &Surface) -> bool {
+        self.points < UNSEEN && self.sums == [DVec3::ZERO; SHIFTS] && !self.emitter.below(surface)
+    }
+
     fn estimate(&self) -> Estimate {
         mean(&self.sums.map(|sum| sum / f64::from(self.points)))
     }
@@ -234,7 +253,7 @@ pub(super) fn reflected_where(
         let mut settled = true;
         for running in &mut all {
             let error = running.estimate().standard_error.element_sum();
-            if error > allowed && running.points < POINTS[1] {
+            if running.unseen(surface) || (error > allowed && running.points < POINTS[1]) {
                 running.extend(surface, shadow, 2 * running.points);
                 settled = false;
             }

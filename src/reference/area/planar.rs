@@ -73,6 +73,14 @@ impl Planar {
         Self { uv: uv.unwrap_or(RECT_UV), ..planar }
     }
 
+    /// Height of the highest point above the plane through `origin` with the unit normal, and whether the front is seen
+    /// from there. Of a polygon that of its rectangle, which is not less.
+    pub(super) fn highest(&self, origin: DVec3, normal: DVec3) -> (f64, bool) {
+        let [u, v] = [self.u, self.v].map(|axis| axis.dot(normal).abs());
+        let reach = if matches!(self.outline, Outline::Ellipse) { u.hypot(v) } else { u + v };
+        ((self.center - origin).dot(normal) + reach, (origin - self.center).dot(self.normal) > 0.0)
+    }
+
     /// A point of the outline or, for loops, of the rectangle: then possibly none.
     pub(super) fn sample(&self, origin: DVec3, xi: DVec2) -> Option<Seen> {
         let st = match self.outline {
