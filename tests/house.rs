@@ -92,3 +92,28 @@ fn imports_point_up() {
         }
     }
 }
+
+/// Keys that the parser knows, between quotes in its lists of keys.
+#[test]
+fn every_key_of_a_scene_is_documented() {
+    let page = fs::read_to_string(root().join("docs/scene.md")).unwrap();
+    let words: Vec<&str> = page
+        .split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .filter(|word| !word.is_empty())
+        .collect();
+    let mut keys = 0;
+    for path in sources(&root().join("src/scene/parse")) {
+        let text = fs::read_to_string(&path).unwrap();
+        for opening in ["allow(&[", "KEYS: [", "own: &[&str] = ", "allow(&[&COMMON_KEYS[..], "] {
+            for list in text.split(opening).skip(1) {
+                let ends = [")?", ");", "];", "};"].into_iter().filter_map(|end| list.find(end));
+                let end = ends.min().unwrap_or(list.len());
+                for key in list[..end].split('"').skip(1).step_by(2) {
+                    assert!(words.contains(&key), "{}: {key}", path.display());
+                    keys += 1;
+                }
+            }
+        }
+    }
+    assert!(keys > 70, "{keys} keys found");
+}
