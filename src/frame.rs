@@ -47,8 +47,6 @@ pub struct Frame {
     counters: Counters,
     timestamps: Timestamps,
     pass_names: Vec<&'static str>,
-    /// Time that the moving lights are at.
-    time: Option<f64>,
     samples: u32,
     slices: u32,
     draws: Vec<VisibleDraw>,
@@ -83,7 +81,6 @@ impl Frame {
             counters: Counters::default(),
             timestamps: Timestamps::new(device, pass_names.len() as u32 + 1)?,
             pass_names,
-            time: None,
             samples: 0,
             slices: 0,
             draws: Vec::new(),
@@ -114,14 +111,12 @@ impl Frame {
     }
 
     /// Moves the lights that move, unless they are there already; what that took.
-    fn move_lights(&mut self, time: f64) -> Result<Option<Timings>> {
+    fn move_lights(&self, time: f64) -> Result<Option<Timings>> {
         if !self.scene.moves() {
             return Ok(None);
         }
         let watch = Stopwatch::start(&[]);
-        if self.time.replace(time) != Some(time) {
-            self.scene.move_lights(time)?;
-        }
+        self.scene.move_lights(time)?;
         Ok(Some(watch.stop()))
     }
 

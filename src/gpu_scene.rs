@@ -22,7 +22,7 @@ pub use area::{Area, Luminaire};
 use geometry::{Geometry, bounds, origin};
 use glam::Vec3;
 pub use lights::moment_row;
-use lights::{LightImages, placed};
+use lights::{LightImages, Moving, placed};
 use occluders::Occluders;
 use rayon::prelude::*;
 use resolved::Resolved;
@@ -78,8 +78,8 @@ pub struct GpuScene {
     pub bounds: Option<[glam::DVec3; 2]>,
     /// Layout that every pipeline of the frame shares.
     pub layout: Arc<PipelineLayout>,
-    /// Nothing but the point lights and how they move; `None` where none does.
-    moving: Option<Scene>,
+    /// `None` where no light moves.
+    moving: Option<Moving>,
     light_images: LightImages,
     // What the sets refer to.
     _tables: Tables,
@@ -141,7 +141,7 @@ impl GpuScene {
             _tables: tables,
             _textures: textures,
             _record_buffer: record_buffer,
-            moving: lights::moving(scene),
+            moving: Moving::new(scene),
             light_images,
             _occluders: occluders,
         })
@@ -158,7 +158,7 @@ impl GpuScene {
     /// # Errors
     /// [`Error::Vulkan`] from the driver.
     pub fn move_lights(&self, t: f64) -> Result<()> {
-        self.moving.as_ref().map_or(Ok(()), |scene| self.light_images.upload(&placed(scene, t, self.origin)))
+        self.moving.as_ref().map_or(Ok(()), |moving| moving.move_to(t, &self.light_images, self.origin))
     }
 }
 

@@ -102,7 +102,9 @@ void over_polygon(inout Estimate sum, Receiver r, Source source, vec3 share) {
 void over_strip(inout Estimate sum, Receiver r, Source source, vec3 share) {
     Strip strip = strip_of_line(source.center, source.u, source.light.radius);
     if (!strip.seen) return;
-    uvec2 nodes = ANISOTROPIC ? uvec2(8u, 12u) : uvec2(4u, 8u);
+    // Not a select: of vectors by a specialisation constant spirv-opt takes the default's.
+    uvec2 nodes = uvec2(4u, 8u);
+    if (ANISOTROPIC) nodes = uvec2(8u, 12u);
     for (uint lobe = 0u; lobe < LOBES; ++lobe) {
         if (!bsdf_has(lobe)) continue;
         Proxy proxy = receiver_proxy(r, lobe);

@@ -23,6 +23,8 @@ pub enum Use {
     FragmentRead,
     /// Texture sampled by a fragment shader.
     Texture,
+    /// Storage image that fragment and compute shaders read.
+    StorageRead,
     /// Depth attachment, tested and written.
     DepthWrite,
     /// Depth attachment tested only.
@@ -43,6 +45,7 @@ impl Use {
         use vk::{AccessFlags as A, ImageLayout as L, PipelineStageFlags as S};
         const DEPTH_TESTS: S =
             S::from_raw(S::EARLY_FRAGMENT_TESTS.as_raw() | S::LATE_FRAGMENT_TESTS.as_raw());
+        const SHADING: S = S::from_raw(S::FRAGMENT_SHADER.as_raw() | S::COMPUTE_SHADER.as_raw());
         match self {
             Self::Nothing => (S::TOP_OF_PIPE, A::empty(), L::UNDEFINED),
             Self::TransferWrite => (S::TRANSFER, A::TRANSFER_WRITE, L::TRANSFER_DST_OPTIMAL),
@@ -61,7 +64,8 @@ impl Use {
             ),
             // GENERAL: the same images are written as storage images each frame.
             Self::FragmentRead => (S::FRAGMENT_SHADER, A::SHADER_READ, L::GENERAL),
-            Self::Texture => (S::FRAGMENT_SHADER, A::SHADER_READ, L::SHADER_READ_ONLY_OPTIMAL),
+            Self::Texture => (SHADING, A::SHADER_READ, L::SHADER_READ_ONLY_OPTIMAL),
+            Self::StorageRead => (SHADING, A::SHADER_READ, L::GENERAL),
             Self::DepthWrite => (
                 DEPTH_TESTS,
                 A::from_raw(

@@ -216,7 +216,7 @@ fn usage(used: Use) -> vk::ImageUsageFlags {
         Use::Nothing | Use::HostRead | Use::IndirectRead | Use::Present => vk::ImageUsageFlags::empty(),
         Use::TransferWrite => vk::ImageUsageFlags::TRANSFER_DST,
         Use::TransferRead => vk::ImageUsageFlags::TRANSFER_SRC,
-        Use::ComputeWrite => vk::ImageUsageFlags::STORAGE,
+        Use::ComputeWrite | Use::StorageRead => vk::ImageUsageFlags::STORAGE,
         Use::ComputeRead | Use::FragmentRead | Use::Texture => vk::ImageUsageFlags::SAMPLED,
         Use::DepthWrite | Use::DepthTest => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
         Use::DepthRead => vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,

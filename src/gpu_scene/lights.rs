@@ -6,7 +6,7 @@ use crate::light_tree::LightTree;
 use crate::scene::{PointLight, Scene};
 use crate::shared::{self, LightNode, MomentNode};
 use glam::Vec3;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Null lights behind the others: the padding of lists, and of the last leaf.
 const NULL_LIGHTS: u32 = shared::MOMENT_LEAF;
@@ -36,7 +36,7 @@ impl LightImages {
                 Format::R32G32B32A32_SFLOAT,
                 [width, height],
                 Some(layers),
-                Use::ComputeWrite,
+                Use::StorageRead,
             )?,
             nodes: image(
                 "light tree",
@@ -52,24 +52,45 @@ impl LightImages {
 
     /// Uploads lights, as many as the images were made for.
     pub(super) fn upload(&self, tree: &LightTree) -> Result<()> {
-        self.lights.upload(&[&light_texels(&tree.lights)], Use::ComputeWrite)?;
+        self.lights.upload(&[&light_texels(&tree.lights)], Use::StorageRead)?;
         self.nodes.upload(&[&node_texels(tree)], Use::Texture)
     }
 
     pub(super) fn bind(&self, set: DescriptorSet<'_>) {
-        set.image(shared::scene::SCENE_LIGHTS, &self.lights, Use::ComputeWrite);
+        set.image(shared::scene::SCENE_LIGHTS, &self.lights, Use::StorageRead);
         set.image(shared::scene::SCENE_LIGHT_NODES, &self.nodes, Use::Texture);
     }
 }
 
-/// A scene with nothing but its point lights and their motions; `None` where none moves.
-pub(super) fn moving(scene: &Scene) -> Option<Scene> {
-    let lights = || Scene {
-        point_lights: scene.point_lights.clone(),
-        motions: scene.motions.clone(),
-        ..Scene::default()
-    };
-    (!scene.motions.is_empty()).then(lights)
+/// Lights that move, and where they are.
+pub(super) struct Moving {
+    /// Nothing but the point lights and their motions.
+    scene: Scene,
+    /// Seconds; `None` while they are on their way.
+    time: Mutex<Option<f64>>,
+}
+
+impl Moving {
+    /// `None` where no light of the scene moves.
+    pub(super) fn new(scene: &Scene) -> Option<Self> {
+        let lights = || Scene {
+            point_lights: scene.point_lights.clone(),
+            motions: scene.motions.clone(),
+            ..Scene::default()
+        };
+        (!scene.motions.is_empty()).then(|| Self { scene: lights(), time: Mutex::new(Some(0.0)) })
+    }
+
+    /// Uploads the lights where they are at time `t`, unless they are there already.
+    pub(super) fn move_to(&self, t: f64, images: &LightImages, origin: Vec3) -> Result<()> {
+        let mut time = self.time.lock().unwrap_or_else(PoisonError::into_inner);
+        if *time != Some(t) {
+            *time = None;
+            images.upload(&placed(&self.scene, t, origin))?;
+            *time = Some(t);
+        }
+        Ok(())
+    }
 }
 
 /// A scene's point lights at a time, seconds, about the device's origin.
