@@ -155,8 +155,7 @@ impl Frame {
                 self.resolve = Some(Resolve::new(&inputs, &self.targets, true, capacity.clusters)?);
             }
             self.forward = Forward::new(&inputs, &self.targets, self.work)?;
-        }
-        if let Some(resolve) = &mut self.resolve {
+        } else if let Some(resolve) = &mut self.resolve {
             resolve.grow(&self.device, &self.scene, capacity.clusters)?;
         }
         self.lists = ClusterTargets::new(&self.device, tiles_of(self.settings.size), capacity)?;
@@ -238,7 +237,7 @@ impl Frame {
         let mut camera = inputs.camera.clone();
         camera.position -= origin;
         camera.target -= origin;
-        let range = self.scene.lights.median_range;
+        let range = self.scene.median_range;
         let mut constants = camera_constants(&camera, self.settings.size, jitter, self.scene.bounds, range);
         // N samples share a pixel, so each filters its textures over an N-th of it.
         constants.sample_index = sample;

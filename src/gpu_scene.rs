@@ -14,7 +14,7 @@ use crate::bvh::Bvh;
 use crate::draws::{Draw, is_closed};
 use crate::error::{Error, Result};
 use crate::gpu::{Buffer, BufferUse, Cull, DescriptorSets, Device, PipelineLayout, Specialization};
-use crate::light_tree::LightTree;
+use crate::light_tree::{LightTree, median_range};
 use crate::scene::material::PARAMETER_COUNT;
 use crate::scene::{Luminaire as Surface, Material, Model, Parameter, Scene, Vertex};
 use crate::shared::{self, MaterialRecord};
@@ -67,6 +67,8 @@ pub struct GpuScene {
     pub resolved: Resolved,
     /// Constants of the materials.
     pub records: Vec<MaterialRecord>,
+    /// Median of the point lights' ranges, metres; 0 without any.
+    pub median_range: f32,
     /// Point lights in device order, at time 0.
     pub lights: LightTree,
     /// Area lights.
@@ -135,6 +137,7 @@ impl GpuScene {
             variants,
             origin,
             bounds: bounds(&geometry.vertices),
+            median_range: median_range(&lights.lights),
             lights,
             area,
             layout,

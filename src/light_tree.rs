@@ -29,8 +29,6 @@ pub struct LightTree {
     pub ranged: usize,
     /// Nodes over the lights with a range: the top ones, then `TOP_LEAVES` for each.
     pub nodes: Vec<LightNode>,
-    /// Median of the ranges, metres; 0 without any.
-    pub median_range: f32,
     /// Nodes over the lights without a range, in depth-first order, with a null node behind them; empty where the lights
     /// are few.
     pub moments: Vec<MomentNode>,
@@ -44,12 +42,11 @@ impl LightTree {
         append_along_curve(lights, true, &mut ordered);
         let ranged = ordered.len();
         let nodes = build(&ordered);
-        let median_range = median_range(&ordered);
         append_along_curve(lights, false, &mut ordered);
         let unranged = &ordered[ranged..];
         let moments =
             if unranged.len() > LIGHTS_WITHOUT_CUT { moments::build(unranged, ranged) } else { vec![] };
-        Self { lights: ordered, ranged, nodes, median_range, moments }
+        Self { lights: ordered, ranged, nodes, moments }
     }
 
     /// Top nodes.
@@ -59,7 +56,9 @@ impl LightTree {
     }
 }
 
-fn median_range(lights: &[PointLight]) -> f32 {
+/// Median of the lights' ranges, metres; 0 without any.
+#[must_use]
+pub fn median_range(lights: &[PointLight]) -> f32 {
     let mut ranges: Vec<f32> = lights.iter().filter_map(|light| light.range).collect();
     let middle = ranges.len() / 2;
     if ranges.is_empty() { 0.0 } else { *ranges.select_nth_unstable_by(middle, f32::total_cmp).1 }

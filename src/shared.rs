@@ -42,8 +42,6 @@ shared! {
         FOLD_NODES = 8;
         /// Texels of such a node: position; irradiance; its slope, with the constant in the position's fourth.
         FOLD_TEXELS = 3;
-        /// Specialisation constant: some lists are folded.
-        SPEC_FOLDED = 60;
         /// Depth slices at most.
         MAX_SLICES = 256;
         /// Invocations of one-dimensional compute work.
@@ -261,6 +259,8 @@ shared! {
         SPEC_LANES = 46;
         /// The variant that the pipeline resolves.
         SPEC_RESOLVED = 44;
+        /// Some lists are folded.
+        SPEC_FOLDED = 60;
         /// Clusters note their pixels.
         SPEC_NOTE_PIXELS = 47;
         /// Clusters note the variants of their pixels.
@@ -344,7 +344,7 @@ shared! {
             clip_from_eye: mat4;
             /// Eye point, world.
             eye: vec3;
-            /// Point lights without a range begin here in the light texture; they are evaluated one by one.
+            /// Point lights without a range begin here among the lights: cut, or evaluated one by one.
             direct_begin: uint;
             /// View direction, unit, world.
             forward: vec3;

@@ -43,7 +43,7 @@ impl Targets {
             Format::R32_UINT,
             &[Use::TransferWrite, Use::TransferRead, Use::ComputeWrite, Use::FragmentRead],
         )?;
-        // No clusters until the cluster pass has run, which it never does for a scene without lights in lists.
+        // No clusters until the cluster pass has run, which it never does for a scene that has no use for it.
         let nothing = vec![NO_CLUSTER; size[0] as usize * size[1] as usize];
         cluster_ids.upload(&[&nothing], Use::FragmentRead)?;
         let mut hdr = vec![Use::ColorWrite, Use::InputRead, Use::TransferRead];

@@ -7,6 +7,7 @@
 #include "lib/cluster.glsl"
 #include "bind/lists.glsl"
 #include "bind/lights.glsl"
+#include "bind/within.glsl"
 #include "bind/fragment.glsl"
 #include "lib/light.glsl"
 #include "bind/surface.glsl"
@@ -17,13 +18,7 @@ layout(location = 0) out vec4 value;
 // Lights of the pixel's list: over those within range, all, within range.
 vec3 pair_ratio(ivec2 pixel) {
     LightList list = list_at(pixel);
-    vec3 position = surface_position();
-    uint within = 0u;
-    for (uint i = 0u; i < list.count; ++i) {
-        vec4 place = light_place(list_indices(list.texel + i / 4u)[i & 3u]);
-        vec3 d = place.xyz - position;
-        within += uint(dot(d, d) * place.w < 1.0);
-    }
+    uint within = lights_within(list, surface_position());
     return vec3(within == 0u ? 1.0 : float(list.count) / float(within), float(list.count), float(within));
 }
 

@@ -24,7 +24,7 @@ void flush(uint count) {
 
 void append(uint group, uint listed) {
     uint lane = gl_LocalInvocationIndex;
-    uvec4 sum = sums(uvec2(bitCount(listed), 0u));
+    uvec4 sum = lane_sums(uvec2(bitCount(listed), 0u));
     for (uint at = waiting_count + sum.x; listed != 0u; listed &= listed - 1u) {
         waiting[at++] = light_of(group, uint(findLSB(listed)));
     }

@@ -2,9 +2,9 @@
 // quadrature: worst-case bounds are 250 times too pessimistic to steer by, so each node may have the same share of the
 // cluster's light, and the constants are calibrated (src/frame/cut.rs).
 //
-// The including shader defines ON_NODE(index, share), ON_ROOT(index) and ON_LEAF(first): a node that fits, its error as a
-// part of what it may be; one smaller than the cluster that does not, so that each pixel opens it for itself; a leaf that
-// does not, by its first light. Each invocation walks alone and in the tree's order, so no subgroup size is assumed.
+// The including shader defines ON_NODE(index, error), ON_ROOT(index) and ON_LEAF(first): a node that fits, and its error;
+// one smaller than the cluster that does not, so that each pixel opens it for itself; a leaf that does not, by its first
+// light. Each invocation walks alone and in the tree's order, so no subgroup size is assumed.
 //
 // A walk meets a few thousand nodes, because none smaller than the cluster is opened; one that meets more than MAX_VISITS,
 // among lights strewn so that this does not hold, is given up for the whole tree as a root: lavapipe ends an invocation's

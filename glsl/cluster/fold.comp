@@ -14,6 +14,9 @@
 #include "lib/parent.glsl"
 #include "cluster/reach.glsl"
 
+#define LANES FOLD_NODES
+#include "cluster/lane_sums.glsl"
+
 layout(local_size_x = FOLD_NODES) in;
 layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) buffer ClusterBlock { Cluster clusters[]; };
 layout(set = SET_frame, binding = FRAME_COUNTERS, std430) buffer CounterBlock { Counters counters; };
@@ -27,7 +30,6 @@ const uint BINS = 2048u;
 const uint UNROLLED = 16u;
 
 shared uint bins[BINS];
-shared uvec2 counts[FOLD_NODES];
 
 Cluster here;
 Cluster parent;
@@ -74,20 +76,6 @@ uvec3 group_words(uint group, uint threshold, bool note) {
     return words;
 }
 
-// Sums of the values of lower invocations, and of all.
-uvec4 sums(uvec2 value) {
-    uint lane = gl_LocalInvocationIndex;
-    barrier();
-    counts[lane] = value;
-    barrier();
-    uvec4 sum = uvec4(0u);
-    [[unroll]] for (uint i = 0u; i < FOLD_NODES; ++i) {
-        uvec2 other = counts[i];
-        sum += uvec4(i < lane ? other : uvec2(0u), other);
-    }
-    return sum;
-}
-
 // The bin of the weakest lights kept, and how many of it are.
 uvec2 threshold_of(uint cap) {
     uint above = 0u;
@@ -131,7 +119,7 @@ void main() {
     clear_nodes();
     for (uint first = 0u; first < groups; first += FOLD_NODES) {
         uvec3 words = group_words(first + lane, threshold.x, false);
-        uvec4 ties = sums(uvec2(bitCount(words.z), 0u));
+        uvec4 ties = lane_sums(uvec2(bitCount(words.z), 0u));
         uint quota = threshold.y > ties.x ? threshold.y - ties.x : 0u;
         uint listed = words.y | lowest(words.z, min(quota, 32u));
         threshold.y = threshold.y > ties.z ? threshold.y - ties.z : 0u;

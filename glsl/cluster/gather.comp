@@ -14,6 +14,9 @@
 #include "lib/parent.glsl"
 #include "cluster/reach.glsl"
 
+#define LANES GATHER_LANES
+#include "cluster/lane_sums.glsl"
+
 layout(local_size_x = GATHER_LANES) in;
 layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) buffer ClusterBlock { Cluster clusters[]; };
 layout(set = SET_frame, binding = FRAME_COUNTERS, std430) readonly buffer CounterBlock { Counters counters; };
@@ -26,7 +29,6 @@ const uint LEAF_ROOM = PARENT_ROOM / 2u;
 
 shared vec3 lowers[GATHER_LANES];
 shared vec3 uppers[GATHER_LANES];
-shared uvec2 counts[GATHER_LANES];
 shared uint tops[32u * GATHER_LANES];
 shared uint met_leaves[TOP_LEAVES];
 shared uint lights[PARENT_ROOM];
@@ -35,20 +37,6 @@ shared uint leaves[LEAF_ROOM];
 vec3 lower = vec3(1e38);
 vec3 upper = vec3(-1e38);
 uvec2 found = uvec2(0u);  // lights, leaves
-
-// Sums of the values of lower invocations, and of all.
-uvec4 sums(uvec2 value) {
-    uint lane = gl_LocalInvocationIndex;
-    barrier();
-    counts[lane] = value;
-    barrier();
-    uvec4 sum = uvec4(0u);
-    [[unroll]] for (uint i = 0u; i < GATHER_LANES; ++i) {
-        uvec2 other = counts[i];
-        sum += uvec4(i < lane ? other : uvec2(0u), other);
-    }
-    return sum;
-}
 
 // The box of all children.
 void bound(uint first, uint count) {
@@ -81,14 +69,14 @@ uint list_leaves(uint top) {
     [[unroll]] for (uint i = 0u; i < LANE_LEAVES; ++i) {
         met |= uint(overlap(node_at(frame.top_nodes + begin + i), lower, upper)) << i;
     }
-    uvec4 sum = sums(uvec2(bitCount(met), 0u));
+    uvec4 sum = lane_sums(uvec2(bitCount(met), 0u));
     for (uint at = sum.x; met != 0u; met &= met - 1u) met_leaves[at++] = begin + uint(findLSB(met));
     barrier();
     return sum.z;
 }
 
 void append(uint leaf, uint hits) {
-    uvec4 sum = sums(uvec2(uint(bitCount(hits)), uint(hits != 0u)));
+    uvec4 sum = lane_sums(uvec2(uint(bitCount(hits)), uint(hits != 0u)));
     uvec2 at = found + sum.xy;
     if (hits != 0u && at.y < LEAF_ROOM) leaves[at.y] = leaf;
     for (; hits != 0u && at.x < PARENT_ROOM; hits &= hits - 1u) {
@@ -111,7 +99,7 @@ void visit_top(uint top) {
 void visit_tops(uint first) {
     uint begin = first + 32u * gl_LocalInvocationIndex;
     uint met = met_nodes(begin, min(32u, frame.top_nodes - min(begin, frame.top_nodes)));
-    uvec4 sum = sums(uvec2(bitCount(met), 0u));
+    uvec4 sum = lane_sums(uvec2(bitCount(met), 0u));
     for (uint at = sum.x; met != 0u; met &= met - 1u) tops[at++] = begin + uint(findLSB(met));
     barrier();
     for (uint i = 0u; i < sum.z; ++i) visit_top(tops[i]);

@@ -8,6 +8,7 @@
 #include "bind/lights.glsl"
 #include "lib/cluster.glsl"
 #include "bind/lists.glsl"
+#include "bind/within.glsl"
 #include "bind/area_lights.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
@@ -38,12 +39,7 @@ TilePairs pairs_of(ivec2 pixel, vec3 position) {
     uint unranged = unranged_count(pixel);
     LightList list = list_at(pixel);
     uint area = area_count(pixel);
-    uint useful = unranged + area_useful(pixel, position);
-    for (uint i = 0u; i < list.count; ++i) {
-        vec4 place = light_place(list_indices(list.texel + i / 4u)[i & 3u]);
-        vec3 d = place.xyz - position;
-        useful += uint(dot(d, d) * place.w < 1.0);
-    }
+    uint useful = lights_within(list, position) + unranged + area_useful(pixel, position);
     return TilePairs(list.count + unranged + area, useful, area, frame.area_lights);
 }
 

@@ -12,7 +12,7 @@ bool reaches(vec4 place, vec3 lower, vec3 upper) {
 // The first `count` bits.
 uint first_bits(uint count) { return count >= 32u ? ~0u : (1u << count) - 1u; }
 
-// A texture, not a storage buffer, for the reason given at the lights; of integers, which no device rounds.
+// A texture, not a storage buffer, which lavapipe reads lane by lane; of integers, which no device rounds.
 LightNode node_at(uint index) {
     ivec2 texel = ivec2((index & ((1u << NODES_PER_ROW_LOG2) - 1u)) << 1, index >> NODES_PER_ROW_LOG2);
     uvec4 lower = texelFetch(light_nodes, texel, 0);

@@ -3,12 +3,12 @@
 use super::args::{BenchOptions, SceneOptions};
 use super::measure::Figure;
 use super::outputs::{check_distinct, check_folder};
-use super::report::{self, Clusters, Pairs, Pass};
+use super::report::{self, Clusters, Origin, Pairs, Pass};
 use super::terminal::print;
 use super::{FRAME_RATE, camera, in_scene, load_scene, warn_of_missing_shadows};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
-use crate::gpu::{Device, DeviceInfo, Options};
+use crate::gpu::{Device, Options};
 use crate::gpu_scene::GpuScene;
 use crate::passes::floors::Floors;
 use indicatif::ProgressBar;
@@ -22,12 +22,8 @@ const SPLIT_FRAMES: u32 = 5;
 
 #[derive(Serialize)]
 struct Figures<'a> {
-    schema: u32,
-    device: &'a DeviceInfo,
-    /// Version of amas.
-    version: &'static str,
-    /// Commit it was built from; `null` outside a checkout.
-    commit: Option<&'static str>,
+    #[serde(flatten)]
+    origin: Origin<'a>,
     points: Vec<Point>,
 }
 
@@ -56,13 +52,7 @@ pub(super) fn run(options: &BenchOptions) -> Result<()> {
     let points =
         scenes.into_iter().map(|scene| point(&device, options, scene)).collect::<Result<Vec<_>>>()?;
     if let Some(path) = &options.json {
-        let figures = Figures {
-            schema: 1,
-            device: device.info(),
-            version: env!("CARGO_PKG_VERSION"),
-            commit: option_env!("AMAS_COMMIT"),
-            points,
-        };
+        let figures = Figures { origin: Origin::of(device.info()), points };
         report::save(path, &figures)?;
     }
     device.require_silence()

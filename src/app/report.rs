@@ -16,6 +16,23 @@ use std::sync::Arc;
 
 const MEGABYTE: f64 = 1024.0 * 1024.0;
 
+/// What every file of figures begins with.
+#[derive(Serialize)]
+pub(super) struct Origin<'a> {
+    schema: u32,
+    device: &'a DeviceInfo,
+    /// Version of amas.
+    version: &'static str,
+    /// Commit it was built from; `null` outside a checkout.
+    commit: Option<&'static str>,
+}
+
+impl<'a> Origin<'a> {
+    pub(super) fn of(device: &'a DeviceInfo) -> Self {
+        Self { schema: 1, device, version: env!("CARGO_PKG_VERSION"), commit: option_env!("AMAS_COMMIT") }
+    }
+}
+
 /// Time of one pass.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Pass {

@@ -84,7 +84,7 @@ impl Frame {
         pass.measure(&self.scene, self.set.get(0), tiles_of(self.settings.size))
     }
 
-    /// What the cluster pass counted for the last sample; zero where the scene has no lights with a range.
+    /// What the cluster pass counted for the last sample; zero where it was not needed.
     #[must_use]
     pub fn counters(&self) -> Counters {
         if self.cluster.is_some() { self.counters } else { Counters::default() }

@@ -207,10 +207,4 @@ impl Commands {
             );
         };
     }
-
-    /// Fills a buffer with a repeated word.
-    pub fn fill_buffer<T: Pod>(&mut self, buffer: &Buffer<T>, word: u32) {
-        // SAFETY: the whole buffer; its size is a multiple of 4 for every shared struct.
-        unsafe { self.device.raw.cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, word) };
-    }
 }

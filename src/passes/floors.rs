@@ -1,12 +1,10 @@
 //! The device's floors: what a pair of pixel and light costs at least, over the lists of the picture last rendered.
 
+use super::tally::Tally;
 use crate::error::Result;
-use crate::gpu::{
-    Buffer, BufferUse, ComputePipeline, DescriptorSet, DescriptorSets, Device, PipelineLayout,
-    Specialization, Timestamps, Use, shaders,
-};
+use crate::gpu::{DescriptorSet, Device, Specialization, Timestamps, Use, shaders};
 use crate::gpu_scene::GpuScene;
-use crate::shared::{self, TilePairs};
+use crate::shared;
 use cpu_time::ProcessTime;
 use serde::Serialize;
 use std::sync::Arc;
@@ -43,9 +41,7 @@ impl std::fmt::Display for Floors {
 /// The loops and what they need.
 pub struct FloorPass {
     device: Arc<Device>,
-    layout: Arc<PipelineLayout>,
-    set: DescriptorSets,
-    tiles: Buffer<TilePairs>,
+    tally: Tally,
     timestamps: Timestamps,
 }
 
@@ -55,12 +51,8 @@ impl FloorPass {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(device: &Arc<Device>, tiles: u32) -> Result<Self> {
-        let sets = [shared::frame::BINDINGS, shared::scene::BINDINGS, shared::pairs::BINDINGS];
-        let layout = Arc::new(PipelineLayout::new(device, &sets)?);
-        let tiles = Buffer::new(device, "floors", BufferUse::Storage, tiles as usize)?;
-        let set = layout.allocate(shared::pairs::SET, 1)?;
-        set.get(0).buffer(shared::pairs::PAIRS_TILES, &tiles);
-        Ok(Self { device: device.clone(), layout, set, tiles, timestamps: Timestamps::new(device, 2)? })
+        let tally = Tally::new(device, "floors", tiles)?;
+        Ok(Self { device: device.clone(), tally, timestamps: Timestamps::new(device, 2)? })
     }
 
     /// Measures; `None` where the lists are empty.
@@ -75,8 +67,7 @@ impl FloorPass {
     ) -> Result<Option<Floors>> {
         let time = |floor, model| self.time(scene, frame, tiles, [floor, model]);
         let nothing = time(shared::FLOOR_NOTHING, shared::MODEL_MATTE)?;
-        let pairs: u64 =
-            self.tiles.fetch(Use::ComputeWrite)?.iter().map(|tile| u64::from(tile.evaluated)).sum();
+        let pairs: u64 = self.tally.fetch()?.iter().map(|tile| u64::from(tile.evaluated)).sum();
         if pairs == 0 {
             return Ok(None);
         }
@@ -102,22 +93,21 @@ impl FloorPass {
     ) -> Result<f64> {
         let specialization =
             Specialization::default().with(shared::SPEC_FLOOR, floor).with(shared::SPEC_MODEL, model);
-        let pipeline =
-            ComputePipeline::new(&self.device, &self.layout, shaders::CLUSTER_FLOORS_COMP, &specialization)?;
+        let pipeline = self.tally.pipeline(&self.device, shaders::CLUSTER_FLOORS_COMP, &specialization)?;
         let run = || -> Result<f64> {
             let begin = ProcessTime::now();
             self.device.run("floors", |cmd| {
                 cmd.reset_timestamps(&self.timestamps);
                 cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
                 cmd.timestamp(&self.timestamps, 0);
-                cmd.bind_compute(&pipeline, &[frame, scene.set.get(0), self.set.get(0)]);
+                cmd.bind_compute(&pipeline, &self.tally.sets(frame, scene));
                 cmd.dispatch([tiles[0], tiles[1], 1]);
                 cmd.timestamp(&self.timestamps, 1);
                 Ok(())
             })?;
             let cpu = begin.elapsed().as_secs_f64() * 1e3;
             let device = self.timestamps.intervals()?.map_or(cpu, |intervals| intervals[0]);
-            Ok(if self.device.info().kind == "cpu" { cpu } else { device })
+            Ok(if self.device.is_cpu() { cpu } else { device })
         };
         run()?; // the first may still compile
         let mut times = (0..RUNS).map(|_| run()).collect::<Result<Vec<_>>>()?;

@@ -14,6 +14,7 @@ pub mod pairs;
 pub mod prepass;
 pub mod present;
 pub mod resolve;
+mod tally;
 
 use crate::draws::VisibleDraw;
 use crate::error::Result;

@@ -1,12 +1,10 @@
 //! Accounting: pairs of pixel and light, evaluated and useful. Outside the frame, only for reports and benchmarks.
 
+use super::tally::Tally;
 use crate::error::Result;
-use crate::gpu::{
-    Buffer, BufferUse, ComputePipeline, DescriptorSet, DescriptorSets, Device, PipelineLayout,
-    Specialization, Use, shaders,
-};
+use crate::gpu::{ComputePipeline, DescriptorSet, Device, Specialization, Use, shaders};
 use crate::gpu_scene::GpuScene;
-use crate::shared::{self, TilePairs};
+use crate::shared::TilePairs;
 use std::sync::Arc;
 
 /// Pairs of a picture.
@@ -22,11 +20,10 @@ pub struct PairCount {
     pub area_all: u64,
 }
 
-/// The counting pipeline and its buffer.
+/// The counting pipeline and its counters.
 pub struct PairPass {
     pipeline: ComputePipeline,
-    set: DescriptorSets,
-    tiles: Buffer<TilePairs>,
+    tally: Tally,
 }
 
 impl PairPass {
@@ -35,14 +32,9 @@ impl PairPass {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(device: &Arc<Device>, tiles: u32) -> Result<Self> {
-        let sets = [shared::frame::BINDINGS, shared::scene::BINDINGS, shared::pairs::BINDINGS];
-        let layout = Arc::new(PipelineLayout::new(device, &sets)?);
-        let tiles = Buffer::new(device, "pairs", BufferUse::Storage, tiles as usize)?;
-        let set = layout.allocate(shared::pairs::SET, 1)?;
-        set.get(0).buffer(shared::pairs::PAIRS_TILES, &tiles);
-        let shader = shaders::CLUSTER_PAIRS_COMP;
-        let pipeline = ComputePipeline::new(device, &layout, shader, &Specialization::default())?;
-        Ok(Self { pipeline, set, tiles })
+        let tally = Tally::new(device, "pairs", tiles)?;
+        let pipeline = tally.pipeline(device, shaders::CLUSTER_PAIRS_COMP, &Specialization::default())?;
+        Ok(Self { pipeline, tally })
     }
 
     /// Counts the pairs of the picture last rendered.
@@ -58,7 +50,7 @@ impl PairPass {
     ) -> Result<PairCount> {
         device.run("pairs", |cmd| {
             cmd.memory_barrier(Use::ComputeWrite, Use::ComputeRead);
-            cmd.bind_compute(&self.pipeline, &[frame, scene.set.get(0), self.set.get(0)]);
+            cmd.bind_compute(&self.pipeline, &self.tally.sets(frame, scene));
             cmd.dispatch([tiles[0], tiles[1], 1]);
             Ok(())
         })?;
@@ -68,6 +60,6 @@ impl PairPass {
             area: pairs.area + u64::from(tile.area),
             area_all: pairs.area_all + u64::from(tile.area_all),
         };
-        Ok(self.tiles.fetch(Use::ComputeWrite)?.iter().fold(PairCount::default(), sum))
+        Ok(self.tally.fetch()?.iter().fold(PairCount::default(), sum))
     }
 }

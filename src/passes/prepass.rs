@@ -1,6 +1,7 @@
 //! Reversed depth; masked materials are tested. Where compute shades, what it needs of the surfaces too.
 //!
-//! Reads the triangles of scene and luminaires, writes depth and the surface image, if there is one. Cheap beside shading, and it removes all overdraw from it.
+//! Reads the triangles of scene and luminaires, writes depth and the surface image, if there is one. Cheap beside
+//! shading, and it removes all overdraw from it.
 
 use super::luminaires::Luminaires;
 use super::{PassInputs, View, draw_scene};

@@ -1,6 +1,6 @@
 //! Area lights against the oracle, against each other, and against brute force.
 
-use crate::support::{FIVE_MATERIALS, Rig, assert_close, oracle, relative_errors, scene, scene_with};
+use crate::support::{FIVE_MATERIALS, Rig, assert_close, oracle, png, relative_errors, scene, scene_with};
 use amas::Scene;
 use amas::gpu::Use;
 use amas::passes::aov::Quantity;
@@ -8,8 +8,6 @@ use amas::scene::settings::FrontEnd;
 use amas::scene::{AreaLight, AreaShape};
 use amas::shared::{AREA_MASK_LIGHTS, NO_CLUSTER};
 use glam::{DVec3, Vec3};
-use image::{ImageFormat, Rgba};
-use std::io::Cursor;
 
 /// A light of each shape, small for its distance from everything in [`FIVE_MATERIALS`].
 const SHAPES: [&str; 5] = [
@@ -41,13 +39,10 @@ fn small_lights_of_every_shape_are_the_oracle_s() {
 
 #[test]
 fn textured_lights_are_the_oracle_s() {
-    let mut png = Vec::new();
-    image::RgbaImage::from_fn(16, 16, |x, y| Rgba([if x < 8 { 250 } else { 20 }, 16 * y as u8, 90, 255]))
-        .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
-        .unwrap();
+    let texture = png([16, 16], |x, y| [if x < 8 { 250 } else { 20 }, 16 * y as u8, 90, 255]);
     for shape in [SHAPES[0], SHAPES[1], SHAPES[4]] {
         let text = small(&format!("{FIVE_MATERIALS}{}texture = \"t.png\"\n", light(shape)));
-        let mut rig = Rig::new(scene_with(&text, &[("t.png", &png)]));
+        let mut rig = Rig::new(scene_with(&text, &[("t.png", &texture)]));
         assert_close(&rig.render(), &oracle(&rig.scene), 0.99, 6e-3);
     }
 }
@@ -117,11 +112,8 @@ fn hundred_polygons() -> Scene {
              visible = false\ntwo_sided = {two_sided}\n{texture}"
         );
     }
-    let mut png = Vec::new();
-    image::RgbaImage::from_fn(9, 7, |x, y| Rgba([28 * x as u8, 36 * y as u8, 200, 255]))
-        .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
-        .unwrap();
-    scene_with(&text, &[("t.png", &png)])
+    let texture = png([9, 7], |x, y| [28 * x as u8, 36 * y as u8, 200, 255]);
+    scene_with(&text, &[("t.png", &texture)])
 }
 
 #[test]

@@ -1,12 +1,10 @@
 //! Area lights without shadows on all five BSDFs against the oracle, cell by cell: the bounds that the product promises.
 
 use crate::common::gpu::CheckedGpu;
-use crate::support::scene_with;
+use crate::support::{png, scene_with};
 use amas::compare::{Figures, Mask, Options as Compare, compare};
 use amas::reference::{self, Options};
 use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage, Scene};
-use image::{ImageFormat, Rgba};
-use std::io::Cursor;
 use std::sync::Arc;
 
 /// Promised of every cell with alpha ≥ 0.05.
@@ -288,19 +286,16 @@ fn lights_at_the_surface() {
 /// A chequerboard of which a field is a quarter of what the smoothest lobe sees at once, in contrast 50.
 #[test]
 fn textured() {
-    let mut png = Vec::new();
-    image::RgbaImage::from_fn(8, 8, |x, y| {
+    let texture = png([8, 8], |x, y| {
         let bright = (x / 2 + y / 2) % 2 == 0;
-        Rgba(if bright { [255, 250, 240, 255] } else { [40, 30, 50, 255] })
-    })
-    .write_to(&mut Cursor::new(&mut png), ImageFormat::Png)
-    .unwrap();
+        if bright { [255, 250, 240, 255] } else { [40, 30, 50, 255] }
+    });
     let mut table = Table::new();
     for model in ["matte", "plastic", "metal", "substrate", "principled"] {
         for (shape, keys) in &SHAPES[..3] {
             for alpha in ["0.1", "0.25", "0.5"] {
                 let text = sphere(12, &material(model, alpha), &light(keys, "texture = \"t.png\"\n"));
-                let scene = scene_with(&text, &[("t.png", &png)]);
+                let scene = scene_with(&text, &[("t.png", &texture)]);
                 table.held(&format!("{model}, textured {shape}, alpha {alpha}"), &scene, TEXTURED_MEAN, 1.0);
             }
         }

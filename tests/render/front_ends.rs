@@ -1,10 +1,8 @@
 //! Fragments against compute: the same light on the same pixels, whatever shades it.
 
-use crate::support::{FIVE_MATERIALS, Rig, ranged_lights, scene_with, unranged_lights};
+use crate::support::{FIVE_MATERIALS, Rig, png, ranged_lights, scene_with, unranged_lights};
 use amas::HdrImage;
 use amas::scene::settings::FrontEnd;
-use image::{ImageFormat, Rgba};
-use std::io::Cursor;
 
 type Files<'a> = [(&'a str, &'a [u8])];
 
@@ -102,14 +100,6 @@ fn full_lists() {
     same(&format!("{text}{}", ranged_lights(3000, 3.0)), &[], false);
 }
 
-fn png(texel: impl Fn(u32, u32) -> [u8; 4]) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    image::RgbaImage::from_fn(8, 8, |x, y| Rgba(texel(x, y)))
-        .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
-        .unwrap();
-    bytes
-}
-
 /// Sheets before the spheres: one masked, which compute shades through its holes' rims, one textured, one seen from its
 /// back, which is turned to the viewer or not drawn.
 #[test]
@@ -130,8 +120,8 @@ fn masked_textured_and_two_sided_sheets() {
             "type = \"substrate\"\ndiffuse = [0.9, 0.6, 0.1]\nspecular = [0.1, 0.1, 0.1]\nroughness = 0.2",
         ),
     ];
-    let mask = png(|x, y| [if (x ^ y) & 1 == 0 { 255 } else { 0 }; 4]);
-    let color = png(|x, y| [30 * x as u8, 30 * y as u8, 90, 255]);
+    let mask = png([8, 8], |x, y| [if (x ^ y) & 1 == 0 { 255 } else { 0 }; 4]);
+    let color = png([8, 8], |x, y| [30 * x as u8, 30 * y as u8, 90, 255]);
     let text = format!("{}{}{}", round(), sheets.concat(), ranged_lights(400, 1.5));
     same(&text, &[("m.png", &mask), ("t.png", &color)], true);
     let from_behind = text.replace("position = [0, 1.5, 5]", "position = [0, 1.5, -5]");
@@ -158,7 +148,7 @@ fn scenes_without_use_for_it_do_not_pay() {
     let text = "[render]\nsize = [40, 40]\n[[camera]]\nname = \"c\"\nposition = [0, 4, 0]\ntarget = [0, 0, 0]\nup = [0, 0, -1]\n\
                 vertical_fov = 40\n[[material]]\nname = \"m\"\ntype = \"matte\"\ncolor = { texture = \"t.png\" }\n\
                 [[mesh]]\nshape = \"plane\"\nsize = 4\nmaterial = \"m\"\n";
-    let color = png(|x, y| [30 * x as u8, 30 * y as u8, 90, 255]);
+    let color = png([8, 8], |x, y| [30 * x as u8, 30 * y as u8, 90, 255]);
     let files: [(&str, &[u8]); 1] = [("t.png", &color)];
     let textured = format!("{text}{}", ranged_lights(50, 2.0));
     let mut rig_textured = rig(FrontEnd::Compute, &textured, &files);

@@ -1,10 +1,8 @@
 //! Area lights that are seen.
 
-use crate::support::{Rig, oracle, scene, scene_with};
+use crate::support::{Rig, oracle, png, scene, scene_with};
 use amas::HdrImage;
 use amas::passes::aov::Quantity;
-use image::{ImageFormat, Rgba};
-use std::io::Cursor;
 
 /// A camera before a wall of lights; nothing else.
 fn view(lights: &str) -> String {
@@ -43,14 +41,8 @@ fn luminaires_are_seen_as_the_oracle_sees_them() {
     assert!(picture.pixels.iter().all(|p| *p == [0.1, 0.2, 0.3]));
 }
 
-fn png() -> Vec<u8> {
-    let mut bytes = Vec::new();
-    image::RgbaImage::from_fn(6, 5, |x, y| {
-        Rgba([40 * x as u8 + 20, 50 * y as u8 + 5, 30 * (x ^ y) as u8, 255])
-    })
-    .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
-    .unwrap();
-    bytes
+fn ramp() -> Vec<u8> {
+    png([6, 5], |x, y| [40 * x as u8 + 20, 50 * y as u8 + 5, 30 * (x ^ y) as u8, 255])
 }
 
 /// Magnified, so that both look at the same texels: upright, clamped, decoded.
@@ -63,7 +55,7 @@ fn textures_of_luminaires_are_the_oracle_s() {
         "radiance = [2, 7, 2]\ntexture = \"t.png\"\nuvs = [[-0.5, 0.1], [1.2, 0], [1.2, 0.9], [0.35, 0.34], [-0.5, 1]]",
     );
     assert_eq!(textured.matches("t.png").count(), 3);
-    let mut rig = Rig::new(scene_with(&view(&textured), &[("t.png", &png())]));
+    let mut rig = Rig::new(scene_with(&view(&textured), &[("t.png", &ramp())]));
     let (picture, expected) = (rig.render(), oracle(&rig.scene));
     let count = differing(&picture, &expected, 2e-4);
     assert!(count <= 8, "{count} pixels differ");
@@ -73,10 +65,7 @@ fn textures_of_luminaires_are_the_oracle_s() {
 #[test]
 fn small_pictures_of_luminaires_are_filtered() {
     let texture = |x: u32, y: u32| if (x + y).is_multiple_of(2) { 255 } else { 0 };
-    let mut bytes = Vec::new();
-    image::RgbaImage::from_fn(255, 129, |x, y| Rgba([texture(x, y), 255, 0, 255]))
-        .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
-        .unwrap();
+    let bytes = png([255, 129], |x, y| [texture(x, y), 255, 0, 255]);
     let rect = "[[light]]\ntype = \"rect\"\ncenter = [0, 0, 0]\nu = [3, 0, 0]\nv = [0, 3, 0]\nradiance = [1, 1, 1]\ntexture = \"t.png\"\n";
     let mut rig = Rig::new(scene_with(&view(rect).replace("[60, 44]", "[8, 8]"), &[("t.png", &bytes)]));
     for [r, g, b] in rig.render().pixels {

@@ -1,17 +1,7 @@
 //! Textures, normal maps and masks against the oracle, magnified so that both filter the same texels.
 
-use crate::support::{Rig, assert_close, oracle, scene_with};
+use crate::support::{Rig, assert_close, oracle, png, scene_with};
 use amas::passes::aov::Quantity;
-use image::{ImageFormat, Rgba};
-use std::io::Cursor;
-
-fn png(texel: impl Fn(u32, u32) -> [u8; 4]) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    image::RgbaImage::from_fn(8, 8, |x, y| Rgba(texel(x, y)))
-        .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
-        .unwrap();
-    bytes
-}
 
 fn wall(material: &str) -> String {
     format!(
@@ -23,7 +13,7 @@ fn wall(material: &str) -> String {
 }
 
 fn check(material: &str, texel: impl Fn(u32, u32) -> [u8; 4]) {
-    let mut rig = Rig::new(scene_with(&wall(material), &[("t.png", &png(texel))]));
+    let mut rig = Rig::new(scene_with(&wall(material), &[("t.png", &png([8, 8], texel))]));
     // Filter weights have 8 bits or more on every device: 1/256 of the difference of two texels.
     assert_close(&rig.render(), &oracle(&rig.scene), 0.99, 1e-2);
 }
@@ -72,7 +62,7 @@ fn anisotropy_follows_the_tangent() {
 #[test]
 fn masks_cut_and_what_is_behind_shows() {
     let text = wall("type = \"matte\"\ncolor = [0.8, 0.8, 0.8]\nalpha_mask = \"t.png\"");
-    let half = png(|x, _| [if x < 4 { 0 } else { 255 }, 0, 0, 255]);
+    let half = png([8, 8], |x, _| [if x < 4 { 0 } else { 255 }, 0, 0, 255]);
     let mut rig = Rig::new(scene_with(&text, &[("t.png", &half)]));
     let picture = rig.render();
     let expected = oracle(&rig.scene);

@@ -5,7 +5,7 @@ mod plot;
 mod sweeps;
 
 use super::super::measure::Figure;
-use super::super::report;
+use super::super::report::{self, Origin};
 use super::plot as plots;
 use super::progress;
 use crate::compare::{self, Options};
@@ -74,12 +74,8 @@ pub(super) struct Figures {
 
 #[derive(Serialize)]
 struct File<'a> {
-    schema: u32,
-    device: &'a DeviceInfo,
-    /// Version of amas.
-    version: &'static str,
-    /// Commit it was built from; `null` outside a checkout.
-    commit: Option<&'static str>,
+    #[serde(flatten)]
+    origin: Origin<'a>,
     quick: bool,
     extent: &'a str,
     points: &'a [Point],
@@ -193,10 +189,7 @@ pub(super) fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures
     let [csv, json, markdown, svg, png] = paths;
     write_atomically(csv, |file| page::csv(file, &figures.points))?;
     let content = File {
-        schema: 1,
-        device,
-        version: env!("CARGO_PKG_VERSION"),
-        commit: option_env!("AMAS_COMMIT"),
+        origin: Origin::of(device),
         quick: figures.quick,
         extent: &figures.extent,
         points: &figures.points,
