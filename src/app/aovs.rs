@@ -100,9 +100,8 @@ impl Source<'_> {
                         Kind::Display => {
                             save_png8(&path, width, height, &picture(&path, quantity, &values)?)?
                         }
-                        Kind::Linear => {
-                            image(values.iter().map(|&[x, y, z, _]| [x, y, z]).collect()).save(&path)?
-                        }
+                        Kind::Linear => image(values.iter().map(|value| numbers(quantity, value)).collect())
+                            .save(&path)?,
                     }
                 }
                 Variable::Direct => self.direct_light()?.save(&path)?,
@@ -130,6 +129,15 @@ impl Source<'_> {
             split: false,
             progress: ProgressBar::hidden(),
         }
+    }
+}
+
+/// A pixel's numbers. Where there is no surface, an index is one that nothing has, since 0 is the first of all.
+fn numbers(quantity: Quantity, &[x, y, z, there]: &[f32; 4]) -> [f32; 3] {
+    match quantity {
+        Quantity::Material if there == 0.0 => [-2.0; 3],
+        Quantity::Cluster | Quantity::Slice if there == 0.0 => [-1.0; 3],
+        _ => [x, y, z],
     }
 }
 

@@ -122,7 +122,7 @@ pub(super) struct RenderOptions {
     /// Report as JSON; its pairs.area_saved counts what the clusters' masks spared of area lights
     #[arg(long, value_name = "FILE.json")]
     pub(super) report: Option<PathBuf>,
-    /// Output variable, several times: position, normal, material (-1: a light that is seen), light_count, cluster,
+    /// Output variable, several times: position, normal, material (-1: a light that is seen, -2: nothing), light_count, cluster,
     /// slice, pair_ratio (lights evaluated over those within range), folded (lights beyond the cap of the list), light_error
     /// (estimated, relative), direct or indirect; numbers in .exr or .pfm, colours in .png
     #[arg(long, value_name = "NAME=FILE", value_parser = parse_pair)]
@@ -162,6 +162,12 @@ pub(super) struct ReferenceOptions {
     /// Camera by name [default: the first]
     #[arg(long, value_name = "NAME")]
     pub(super) camera: Option<String>,
+    /// Frame of `amas render --frames`, 30 a second: the camera on its path, lights that move on theirs
+    #[arg(long, value_name = "N")]
+    pub(super) frame: Option<u32>,
+    /// Relative standard error at which a pixel's area lights are done
+    #[arg(long, value_name = "E", default_value_t = 1e-3, value_parser = parse_tolerance)]
+    pub(super) tolerance: f64,
     /// Standard error of every value, as a picture
     #[arg(long, value_name = "FILE.exr")]
     pub(super) error: Option<PathBuf>,
@@ -276,6 +282,11 @@ pub(super) struct InfoOptions {
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     sides.ok_or_else(|| "write it as WIDTHxHEIGHT, such as 640x360".into())
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let tolerance = text.parse().ok().filter(|tolerance| (1e-9..=1.0).contains(tolerance));
+    tolerance.ok_or_else(|| "write a number from 1e-9 to 1, such as 1e-4".into())
 }
 
 fn parse_pair(text: &str) -> Result<(String, String), String> {

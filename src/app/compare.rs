@@ -1,11 +1,19 @@
 //! `amas compare`: error figures between two pictures.
 
 use super::args::CompareOptions;
-use super::terminal::print;
+use super::outputs::{Kind, kind};
+use super::terminal::{complain, print};
 use crate::compare::{Figures, compare_files};
 use crate::error::Result;
 
 pub(super) fn run(options: &CompareOptions) -> Result<()> {
+    let display = [&options.a, &options.b].map(|path| kind(path).is_ok_and(|kind| kind == Kind::Display));
+    if display[0] != display[1] {
+        complain(
+            "warning: one picture is scene-linear, the other a .png: its colours are decoded from sRGB, but exposure, tone \
+             curve and 8 bits stay in them\n  remedy: compare two .exr or .pfm",
+        );
+    }
     let figures = compare_files(&options.a, &options.b, options.mask.as_deref(), options.block)?;
     if options.json {
         print(format_args!("{:#}", serde_json::json!(figures)))

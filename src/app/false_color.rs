@@ -10,10 +10,11 @@ const RAMP: [[f64; 3]; 6] = [
     [255.0, 250.0, 200.0],
 ];
 
-/// A heat map of `values` from `range[0]` to `range[1]`; black where there is none.
+/// A heat map of `values` from `range[0]` to `range[1]`, the ramp's middle where these are equal; black where there is
+/// none.
 pub(super) fn heat(values: &[Option<f32>], range: [f32; 2]) -> Vec<[u8; 3]> {
-    let span = f64::from(range[1] - range[0]).max(f64::MIN_POSITIVE);
-    let color = |value: f32| ramp(f64::from(value - range[0]) / span);
+    let span = f64::from(range[1] - range[0]);
+    let color = |value: f32| ramp(if span > 0.0 { f64::from(value - range[0]) / span } else { 0.5 });
     values.iter().map(|value| value.map_or([0; 3], color)).collect()
 }
 
@@ -62,7 +63,7 @@ mod tests {
             |c: &[u8; 3]| 0.2126 * f64::from(c[0]) + 0.7152 * f64::from(c[1]) + 0.0722 * f64::from(c[2]);
         assert!(map.windows(2).all(|pair| luma(&pair[0]) < luma(&pair[1])));
         assert_eq!((map[0], map[100]), ([0, 0, 0], [255, 250, 200]));
-        assert_eq!(heat(&[None, Some(3.0)], [3.0, 3.0]), [[0; 3]; 2]);
+        assert_eq!(heat(&[None, Some(3.0)], [3.0, 3.0]), [[0; 3], [181, 50, 91]]);
     }
 
     #[test]

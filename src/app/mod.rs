@@ -60,17 +60,28 @@ pub fn main() -> ExitCode {
 /// Loads the scene that the options name, or the embedded one, and says what loading repaired.
 fn load_scene(options: &SceneOptions) -> Result<Scene> {
     let mut overrides = options.set.clone();
-    if let Some([width, height]) = options.size {
-        overrides.push(("size".into(), format!("[{width}, {height}]")));
-    }
+    overrides.extend(options.size.map(|[width, height]| ("size".into(), format!("[{width}, {height}]"))));
     let scene = match &options.scene {
-        Some(path) => scene::load(path, &overrides)?,
-        None => default_scene::load(&overrides)?,
+        Some(path) => scene::load(path, &overrides),
+        None => default_scene::load(&overrides),
     };
+    let scene = scene.map_err(|error| of_size(error, options.size))?;
     for warning in &scene.warnings {
         terminal::complain(format_args!("warning: {warning}"));
     }
     Ok(scene)
+}
+
+/// Blames `--size` as it was given, not the override that it stands for.
+fn of_size(error: Error, size: Option<[u32; 2]>) -> Error {
+    match (error, size) {
+        (Error::Usage { cause, remedy }, Some([width, height])) => {
+            let given = cause.strip_prefix(&format!("--set size=[{width}, {height}]"));
+            let cause = given.map(|rest| format!("--size {width}x{height}{rest}")).unwrap_or(cause.clone());
+            Error::Usage { cause, remedy }
+        }
+        (error, _) => error,
+    }
 }
 
 /// Says once what shadows the renderer leaves out.

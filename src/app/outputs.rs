@@ -119,6 +119,17 @@ pub(super) fn check_frames(paths: &[PathBuf], frames: u32) -> Result<()> {
     }
 }
 
+/// A file for all frames has no place for a number.
+pub(super) fn check_single(path: &Path) -> Result<()> {
+    match placeholder(&path.to_string_lossy()) {
+        Some(_) => Err(Error::usage(
+            format!("{}: one report covers all frames", path.display()),
+            "name it without a frame's number",
+        )),
+        None => Ok(()),
+    }
+}
+
 /// Begin, end and width of `%04d` or `%d`.
 fn placeholder(text: &str) -> Option<(usize, usize, usize)> {
     let begin = text.find('%')?;
@@ -143,5 +154,7 @@ mod tests {
         assert_eq!(frame_path(Path::new("100%.png"), 1), Path::new("100%.png"));
         assert!(check_frames(&["a.png".into()], 2).is_err());
         assert!(check_frames(&["a.png".into()], 1).is_ok());
+        assert!(check_single(Path::new("a_%04d.json")).is_err());
+        assert!(check_single(Path::new("a.json")).is_ok());
     }
 }

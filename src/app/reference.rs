@@ -2,7 +2,7 @@
 
 use super::args::{IntegratorName, ReferenceOptions};
 use super::outputs::{check_distinct, check_linear};
-use super::{camera, in_scene, load_scene};
+use super::{FRAME_RATE, camera, in_scene, load_scene};
 use crate::error::Result;
 use crate::reference::{Integrator, Options, render};
 use crate::scene::RenderSettings;
@@ -11,13 +11,18 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
     check_linear(&options.output)?;
     options.error.iter().try_for_each(|path| check_linear(path))?;
     check_distinct([&options.output].into_iter().chain(&options.error), options.scene.scene.as_deref())?;
-    let scene = load_scene(&options.scene)?;
-    let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
+    let mut scene = load_scene(&options.scene)?;
+    let mut camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?.clone();
+    if let Some(frame) = options.frame {
+        let time = f64::from(frame) / FRAME_RATE;
+        camera = camera.at(time);
+        scene.point_lights = scene.point_lights_at(time);
+    }
     warn_of_missing_light(&scene.render, options.integrator);
     let defaults = Options::of_scene(&scene);
     let rendered = render(
         &scene,
-        camera,
+        &camera,
         &Options {
             spp: options.spp.unwrap_or(defaults.spp),
             seed: options.seed,
@@ -26,6 +31,7 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
                 IntegratorName::Shadowed => Integrator::Shadowed,
                 IntegratorName::Path => Integrator::Path,
             },
+            tolerance: options.tolerance,
             progress: true,
             ..defaults
         },

@@ -2,7 +2,9 @@
 
 use super::aovs::{AovOutput, Source};
 use super::args::RenderOptions;
-use super::outputs::{Kind, check_distinct, check_folder, check_frames, check_picture, frame_path, kind};
+use super::outputs::{
+    Kind, check_distinct, check_folder, check_frames, check_picture, check_single, frame_path, kind,
+};
 use super::report::{self, Report};
 use super::{FRAME_RATE, camera, in_scene, load_scene, warn_of_missing_shadows};
 use crate::error::Result;
@@ -67,7 +69,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
 fn check_outputs(options: &RenderOptions, outputs: &[PathBuf], aovs: &[AovOutput]) -> Result<()> {
     outputs.iter().try_for_each(|path| check_picture(path).map(|_| ()))?;
     aovs.iter().try_for_each(AovOutput::check)?;
-    options.report.iter().try_for_each(|path| check_folder(path))?;
+    options.report.iter().try_for_each(|path| check_folder(path).and_then(|()| check_single(path)))?;
     let files: Vec<PathBuf> = outputs.iter().chain(aovs.iter().map(|aov| &aov.file)).cloned().collect();
     check_distinct(files.iter().chain(&options.report), options.scene.scene.as_deref())?;
     check_frames(&files, options.frames.clone().map_or(1, |frames| frames.len() as u32))

@@ -255,9 +255,12 @@ pub(super) fn print_table(title: &str, passes: &[Pass], frames: &[Timings]) -> R
         None => format!("{:>9}", "-"),
     };
     print(title)?;
+    // A frame in one piece, faster than one whose passes wait for each other, has no CPU time of each.
+    let split = passes.iter().any(|pass| pass.cpu_ms.is_some());
     print(format_args!("{:<10} {:>9}       {:>9}", "pass", "device ms", "CPU ms"))?;
     for pass in passes {
-        let cpu = pass.cpu_ms.map_or_else(|| format!("{:>9}", "-"), |ms| format!("{ms:9.2}"));
+        let none = || if split { format!("{:>9}", "-") } else { String::new() };
+        let cpu = pass.cpu_ms.map_or_else(none, |ms| format!("{ms:9.2}"));
         print(format_args!("{:<10} {:<16}{cpu}", pass.name, ms(pass.gpu_ms)))?;
     }
     print(format_args!(

@@ -30,7 +30,7 @@ impl Plane {
         if extent <= 1e-6 * high.abs().max(low.abs()).max_element()
             || normal.length() <= 1e-9 * extent * extent
         {
-            return Err("encloses no area".to_owned());
+            return Err("encloses no area, or crosses itself into parts that cancel".to_owned());
         }
         let normal = normal.normalize();
         let plane = Self { origin, normal, u: normal.any_orthonormal_vector(), extent };

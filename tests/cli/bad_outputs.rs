@@ -24,6 +24,7 @@ fn names_and_folders() {
         folder.refused(&[&["render", "scene.toml"], words].concat(), parts);
     };
     render(&["--report", "none/r.json"], &["none/r.json", "no folder"]);
+    render(&["--report", "r%04d.json"], &["r%04d.json", "one report"]);
     render(&["--aov", "normal=none/n.exr"], &["none/n.exr", "no folder"]);
     render(&["--aov", "position=n.png"], &["n.png", ".exr or .pfm"]);
     folder.refused(&["bench", "scene.toml", "--json", "none/b.json"], &["none/b.json", "no folder"]);

@@ -33,7 +33,10 @@ fn sizes() {
     for size in ["5", "64x", "x48", "64*48", "64.5x48", "big", ""] {
         folder.refused(&["render", "scene.toml", "--size", size], &["--size"]);
     }
-    let size = |size| folder.refused(&["render", "scene.toml", "--size", size], &["--set size="]);
+    for tolerance in ["0", "2", "1e-10", "nan", "x"] {
+        folder.refused(&["reference", "scene.toml", "-o", "a.exr", "--tolerance", tolerance], &["1e-9 to 1"]);
+    }
+    let size = |size| folder.refused(&["render", "scene.toml", "--size", size], &["--size "]);
     size("0x0");
     size("0x48");
     size("100000x100000");

@@ -60,6 +60,10 @@ fn known_differences() {
     assert!((half["rel_mse"].as_f64().unwrap() - 0.25 / 1.01).abs() < 1e-12);
     assert!(half["flip"].as_f64().unwrap() > 0.0);
     assert_eq!(figures(&folder, &["b.pfm", "a.exr"])["mean_bias"], -1.0 / 3.0);
+    folder.write("c.png", png(16, 8, |_, _| [255; 4]));
+    let warned =
+        |a: &str| folder.run(&["compare", a, "b.pfm"]).stderr.contains("scene-linear, the other a .png");
+    assert_eq!([warned("c.png"), warned("a.exr")], [true, false]);
 }
 
 #[test]

@@ -73,6 +73,7 @@ fn output_variables() {
     assert!(x.abs() < 0.2 && y.abs() < 1e-5 && z.abs() < 0.2, "{x} {y} {z}");
     assert_eq!(normal.pixels[MIDDLE], [0.0, 1.0, 0.0]);
     assert_eq!(material.pixels[MIDDLE], [0.0; 3]);
+    assert_eq!(material.pixels[0], [-2.0; 3], "no surface there");
     assert_eq!(count.pixels[MIDDLE][0], 1.0);
     let corner = count.pixels.last().unwrap()[0];
     assert_eq!(corner, 0.0, "the light does not reach there");
@@ -92,12 +93,12 @@ fn debug_views() {
     assert!(said.contains("light_count.png: 0 (dark) to 1 (bright)"), "{said}");
     let load = |name: &str| picture(&folder.path(name));
     let [cluster, slice, ratio] = ["cluster.exr", "slice.exr", "pair_ratio.exr"].map(load);
-    // A cluster lies in one tile and slice; without a surface it is 0.
+    // A cluster lies in one tile and slice; without a surface it is −1.
     let id = |i: usize| cluster.pixels[i][0];
     let differ = (0..64 * 48).filter(|&i| {
         let corner = (i / 64 / 8 * 8) * 64 + i % 64 / 8 * 8;
         let beyond = (0..64 * 48).filter(|j| j / 64 / 8 != i / 64 / 8 || j % 64 / 8 != i % 64 / 8);
-        assert!(id(i) == 0.0 || beyond.into_iter().all(|j| id(j) != id(i)), "{i}");
+        assert!(id(i) == -1.0 || beyond.into_iter().all(|j| id(j) != id(i)), "{i}");
         id(corner) == id(i) && slice.pixels[corner] != slice.pixels[i]
     });
     // Another pipeline may round a depth between two slices to the other one.
@@ -137,6 +138,22 @@ fn frames() {
     folder.write("end.toml", SCENE.replace(camera, "position = [3, 2, 5]\ntarget = [0, 0, 0]\nvertical"));
     folder.done(&["render", "end.toml", "-o", "end.exr"]);
     assert_eq!(folder.read("f_0030.exr"), folder.read("end.exr"));
+}
+
+/// The oracle of one frame sees camera and lights where they are then.
+#[test]
+fn a_frame_of_the_reference() {
+    let folder = Folder::new();
+    let orbit = "animate = { type = \"orbit\", center = [0.3, 1, 0], axis = [0, 1, 0], period = 2 }\n";
+    folder.write("scene.toml", format!("{SCENE}{orbit}"));
+    folder.done(&["render", "scene.toml", "--frames", "20..21", "-o", "a%d.pfm"]);
+    let compare = |frame: &[&str]| {
+        folder.done(&[&["reference", "scene.toml", "-o", "b.pfm", "--tolerance", "1e-4"], frame].concat());
+        let figures = folder.done(&["compare", "a20.pfm", "b.pfm", "--json"]);
+        serde_json::from_str::<serde_json::Value>(&figures).unwrap()["p99"].as_f64().unwrap()
+    };
+    assert!(compare(&["--frame", "20"]) < 1e-3);
+    assert!(compare(&[]) > 0.1);
 }
 
 /// An old picture is replaced at once: who has it open keeps it whole.
