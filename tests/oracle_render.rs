@@ -106,8 +106,11 @@ fn pictures_do_not_depend_on_threads() {
 #[test]
 fn what_is_missing_is_said() {
     let scene = scene();
-    let options = Options { integrator: Integrator::Path, ..options([1, 1]) };
-    let error = render(&scene, &scene.cameras[0], &options).unwrap_err();
-    assert_eq!(error.exit_code(), 2);
-    assert!(error.to_string().contains("not supported yet"));
+    for options in
+        [options([0, 1]), Options { spp: 0, ..options([1, 1]) }, Options { paths: 0, ..options([1, 1]) }]
+    {
+        let error = render(&scene, &scene.cameras[0], &options).unwrap_err();
+        assert_eq!(error.exit_code(), 2);
+        assert!(error.to_string().contains("at least 1"));
+    }
 }

@@ -38,9 +38,9 @@ Example:
   amas view scene.toml --size 1280x720 --camera main")]
     View(ViewOptions),
     /// Compute a picture in double precision on the CPU
-    #[command(
-        after_help = "Example:\n  amas reference scene.toml -o reference.exr --spp 4 --error error.exr"
-    )]
+    #[command(after_help = "Examples:
+  amas reference scene.toml -o reference.exr --spp 4 --error error.exr
+  amas reference scene.toml -o reference.exr --integrator path --paths 256")]
     Reference(ReferenceOptions),
     /// Error figures of picture A against picture B, the reference
     #[command(after_help = "Example:\n  amas compare picture.exr reference.exr --mask mask.png --json")]
@@ -168,6 +168,12 @@ pub(super) struct ReferenceOptions {
     /// Relative standard error at which a pixel's area lights are done
     #[arg(long, value_name = "E", default_value_t = 1e-3, value_parser = parse_tolerance)]
     pub(super) tolerance: f64,
+    /// Paths of each ray, for --integrator path
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) paths: u32,
+    /// Most bounces between the surface seen and the light, for --integrator path; 0 is direct light [default: any]
+    #[arg(long, value_name = "N")]
+    pub(super) bounces: Option<u32>,
     /// Standard error of every value, as a picture
     #[arg(long, value_name = "FILE.exr")]
     pub(super) error: Option<PathBuf>,
@@ -179,7 +185,7 @@ pub(super) enum IntegratorName {
     Direct,
     /// Direct light with visibility
     Shadowed,
-    /// Full light transport
+    /// Full light transport, the background's too
     Path,
 }
 

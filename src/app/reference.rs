@@ -32,6 +32,8 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
                 IntegratorName::Path => Integrator::Path,
             },
             tolerance: options.tolerance,
+            paths: options.paths,
+            bounces: options.bounces.unwrap_or(u32::MAX),
             progress: true,
             ..defaults
         },

@@ -64,9 +64,38 @@ impl PointLights {
         self.tree.at_point(surface.position, |index| near += self.ranged[index].reflected(surface, shadow));
         every + near
     }
+
+    /// What one light reflects, chosen in proportion to its irradiance, over the probability of the choice: the sum's
+    /// unbiased estimate for a uniform `xi` in [0, 1).
+    pub(super) fn reflected_by_one(&self, surface: &Surface, shadow: &Shadow, xi: f64) -> DVec3 {
+        let mut sum = 0.0;
+        let mut upper = Vec::new();
+        let mut add = |light| {
+            sum += Light::irradiance(light, surface);
+            upper.push((sum, light));
+        };
+        self.unranged.iter().for_each(&mut add);
+        self.tree.at_point(surface.position, |index| add(&self.ranged[index]));
+        let chosen = upper.partition_point(|(upper, _)| *upper <= xi * sum);
+        upper.get(chosen).map_or(DVec3::ZERO, |(_, light)| {
+            light.reflected(surface, Some(shadow)) * (sum / light.irradiance(surface))
+        })
+    }
 }
 
 impl Light {
+    /// The largest channel's.
+    fn irradiance(&self, surface: &Surface) -> f64 {
+        let to_light = self.position - surface.position;
+        let distance_squared = to_light.length_squared();
+        let cos = surface.frame.normal.dot(to_light) / distance_squared.sqrt();
+        if cos > 0.0 {
+            self.intensity.max_element() * falloff(distance_squared, self.range) * cos
+        } else {
+            0.0
+        }
+    }
+
     fn reflected(&self, surface: &Surface, shadow: Option<&Shadow>) -> DVec3 {
         let to_light = self.position - surface.position;
         let distance_squared = to_light.length_squared();

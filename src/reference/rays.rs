@@ -86,14 +86,24 @@ impl<'a> Geometry<'a> {
     /// The nearest surface that is drawn: back faces of one-sided materials and what an alpha mask cuts are not there.
     #[must_use]
     pub fn closest(&self, view: &CameraRay) -> Option<Hit> {
-        let sheared = Sheared::new(&view.ray);
+        self.first(&view.ray, [view.t_min, view.t_max], |hit| self.drawn(hit) && self.uncut(hit))
+    }
+
+    /// The nearest triangle beyond `t_min`, from either side, except what an alpha mask cuts and the triangle `except`
+    /// (mesh, triangle), on which the ray begins.
+    pub(super) fn wall(&self, ray: &Ray, t_min: f64, except: (usize, usize)) -> Option<Hit> {
+        self.first(ray, [t_min, f64::INFINITY], |hit| (hit.mesh, hit.triangle) != except && self.uncut(hit))
+    }
+
+    fn first(&self, ray: &Ray, [t_min, t_max]: [f64; 2], counts: impl Fn(&Hit) -> bool) -> Option<Hit> {
+        let sheared = Sheared::new(ray);
         let mut closest = None;
-        self.tree.along_ray(&view.ray, view.t_max, |item, t_max| {
+        self.tree.along_ray(ray, t_max, |item, t_max| {
             let (m, t) = self.triangles[item];
             let (mesh, triangle) = (m as usize, t as usize);
             let (t, weights, front) = sheared.meets(corners(&self.scene.meshes[mesh], triangle))?;
             let hit = Hit { t, mesh, triangle, weights, front };
-            if t < view.t_min || t > t_max || !self.drawn(&hit) {
+            if t < t_min || t > t_max || !counts(&hit) {
                 return None;
             }
             closest = Some(hit);
@@ -128,10 +138,10 @@ impl<'a> Geometry<'a> {
         (b - a).cross(c - a)
     }
 
-    fn drawn(&self, hit: &Hit) -> bool {
+    /// The side that a ray hit has a material: a one-sided one's back has none.
+    pub(super) fn drawn(&self, hit: &Hit) -> bool {
         let mesh = &self.scene.meshes[hit.mesh];
-        let material = &self.scene.materials[mesh.material as usize];
-        (material.two_sided || hit.front) && self.uncut(hit)
+        hit.front || self.scene.materials[mesh.material as usize].two_sided
     }
 
     /// The material's alpha mask leaves the place of a hit.

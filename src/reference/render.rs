@@ -6,8 +6,9 @@ use rayon::prelude::*;
 
 use super::area::{self, Emitter, Estimate};
 use super::lights::PointLights;
-use super::rays::{CameraRay, Geometry, camera_ray};
-use super::sampler::{Sequence, hash};
+use super::path::Transport;
+use super::rays::{CameraRay, Geometry, Hit, Ray, camera_ray};
+use super::sampler::{Random, Sequence, hash};
 use super::shading::Surface;
 use super::visibility::{Occluders, Shadow};
 use crate::scene::{Camera, Scene};
@@ -21,7 +22,7 @@ pub enum Integrator {
     Direct,
     /// Direct light with visibility.
     Shadowed,
-    /// Full light transport.
+    /// Full light transport, the background's too.
     Path,
 }
 
@@ -38,12 +39,16 @@ pub struct Options {
     pub integrator: Integrator,
     /// Standard error at which a pixel's area lights are done, relative to what they reflect there.
     pub tolerance: f64,
+    /// Paths of each camera ray, for [`Integrator::Path`].
+    pub paths: u32,
+    /// Most bounces between the surface that is seen and the light, for [`Integrator::Path`]; 0 is direct light.
+    pub bounces: u32,
     /// Shows a bar, if stderr is a terminal.
     pub progress: bool,
 }
 
 impl Options {
-    /// As the scene says, with a tolerance of 1e-3.
+    /// As the scene says, with a tolerance of 1e-3, 64 paths a ray, any number of bounces.
     #[must_use]
     pub fn of_scene(scene: &Scene) -> Self {
         Self {
@@ -52,6 +57,8 @@ impl Options {
             seed: 0,
             integrator: Integrator::Direct,
             tolerance: 1e-3,
+            paths: 64,
+            bounces: u32::MAX,
             progress: false,
         }
     }
@@ -70,7 +77,7 @@ pub struct Rendered {
 /// Renders `scene` from `camera`, which stands still ([`Camera::at`] places it in time).
 ///
 /// # Errors
-/// [`Error::Usage`] for an empty size, no samples, or an integrator that does not exist yet.
+/// [`Error::Usage`] for an empty size, no samples or no paths.
 pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rendered> {
     check(options)?;
     let world = World {
@@ -78,13 +85,13 @@ pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rende
         geometry: Geometry::new(scene),
         points: PointLights::new(&scene.point_lights),
         emitters: scene.area_lights.iter().map(|l| Emitter::new(l, &scene.textures)).collect(),
-        shadowed: options.integrator == Integrator::Shadowed,
+        options,
         tolerance: options.tolerance * f64::from(options.spp).sqrt(),
     };
     let [width, height] = options.size;
     let bar = progress_bar(u64::from(height), options.progress);
     let row = |y: u32| {
-        let row: Vec<_> = (0..width).map(|x| world.pixel(camera, options, x, y)).collect();
+        let row: Vec<_> = (0..width).map(|x| world.pixel(camera, x, y)).collect();
         bar.inc(1);
         row
     };
@@ -99,13 +106,9 @@ pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rende
 }
 
 fn check(options: &Options) -> Result<()> {
-    if options.integrator == Integrator::Path {
-        let cause = "the integrator \"path\" is not supported yet";
-        return Err(Error::usage(cause, "use the integrator \"direct\" or \"shadowed\""));
-    }
-    if options.size.contains(&0) || options.spp == 0 {
+    if options.size.contains(&0) || options.spp == 0 || options.paths == 0 {
         let cause = "a picture without pixels or without samples";
-        return Err(Error::usage(cause, "give a width, a height and an spp of at least 1"));
+        return Err(Error::usage(cause, "give a width, a height, an spp and paths of at least 1"));
     }
     Ok(())
 }
@@ -129,12 +132,13 @@ struct World<'a> {
     geometry: Geometry<'a>,
     points: PointLights,
     emitters: Vec<Emitter<'a>>,
-    shadowed: bool,
+    options: &'a Options,
     tolerance: f64,
 }
 
 impl World<'_> {
-    fn pixel(&self, camera: &Camera, options: &Options, x: u32, y: u32) -> Estimate {
+    fn pixel(&self, camera: &Camera, x: u32, y: u32) -> Estimate {
+        let options = self.options;
         let seed = hash(&[options.seed, u64::from(x), u64::from(y)]);
         let (left, top) = (f64::from(x), f64::from(y));
         if options.spp == 1 {
@@ -164,9 +168,20 @@ impl World<'_> {
         };
         let surface = Surface::new(self.scene, &view.ray, &hit);
         let occluders = Occluders { geometry: &self.geometry, emitters: &self.emitters };
-        let shadow = self.shadowed.then(|| Shadow::new(&occluders, &view.ray, &hit));
+        if self.options.integrator == Integrator::Path {
+            return self.paths(&occluders, &view.ray, &hit, seed);
+        }
+        let shadowed = self.options.integrator == Integrator::Shadowed;
+        let shadow = shadowed.then(|| Shadow::new(&occluders, &view.ray, &hit));
         let shadow = shadow.as_ref();
         let area = area::reflected_where(&surface, &self.emitters, shadow, self.tolerance, seed);
         Estimate { value: area.value + self.points.reflected(&surface, shadow), ..area }
+    }
+
+    fn paths(&self, occluders: &Occluders, ray: &Ray, hit: &Hit, seed: u64) -> Estimate {
+        let Options { paths, bounces, .. } = *self.options;
+        let transport = Transport { scene: self.scene, occluders, points: &self.points, bounces };
+        let mut random = Random::new(seed);
+        area::mean(&(0..paths).map(|_| transport.radiance(ray, hit, &mut random)).collect::<Vec<_>>())
     }
 }

@@ -20,6 +20,31 @@ fn uniform(bits: u64) -> f64 {
     (bits >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
 }
 
+/// Independent uniform numbers: the hashes of a seed and a counter.
+#[derive(Clone, Debug)]
+pub(super) struct Random {
+    seed: u64,
+    count: u64,
+}
+
+impl Random {
+    /// The numbers of a seed; different seeds are independent.
+    pub(super) fn new(seed: u64) -> Self {
+        Self { seed, count: 0 }
+    }
+
+    /// The next number in [0, 1).
+    pub(super) fn next(&mut self) -> f64 {
+        self.count += 1;
+        uniform(hash(&[self.seed, self.count]))
+    }
+
+    /// The next two.
+    pub(super) fn pair(&mut self) -> DVec2 {
+        DVec2::new(self.next(), self.next())
+    }
+}
+
 /// A shifted R2 sequence in [0, 1)².
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sequence {

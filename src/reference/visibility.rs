@@ -36,6 +36,19 @@ pub struct Shadow<'a> {
     scale: f64,
 }
 
+/// What lies along a ray from a surface.
+#[derive(Debug)]
+pub(super) struct Prospect {
+    /// From the surface.
+    pub(super) ray: Ray,
+    /// Distances between which lights are seen.
+    pub(super) range: [f64; 2],
+    /// The luminaire at the end of the range, if it is one.
+    pub(super) luminaire: Option<usize>,
+    /// The triangle at the end of the range, if it is one.
+    pub(super) wall: Option<Hit>,
+}
+
 impl<'a> Shadow<'a> {
     /// From where `ray` hit.
     #[must_use]
@@ -49,6 +62,25 @@ impl<'a> Shadow<'a> {
             normal: if normal.dot(ray.direction) > 0.0 { -normal } else { normal },
             scale: position.abs().max_element().max(ray.origin.abs().max_element()).max(hit.t),
         }
+    }
+
+    /// What is seen along the unit vector `wi`; `None` where the point's own triangle hides it.
+    pub(super) fn prospect(&self, wi: DVec3) -> Option<Prospect> {
+        if self.normal.dot(wi) <= 0.0 {
+            return None;
+        }
+        let ray = Ray::new(self.position, wi);
+        let t_min = MARGIN * self.scale;
+        let wall = self.occluders.geometry.wall(&ray, t_min, self.triangle);
+        let mut end = wall.map_or(f64::INFINITY, |hit| hit.t);
+        let mut luminaire = None;
+        for (index, emitter) in self.occluders.emitters.iter().enumerate() {
+            if let Some(t) = emitter.occluder(&ray).filter(|t| (t_min..end).contains(t)) {
+                (end, luminaire) = (t, Some(index));
+            }
+        }
+        let wall = wall.filter(|_| luminaire.is_none());
+        Some(Prospect { ray, range: [t_min, end], luminaire, wall })
     }
 
     /// Whether what shines from `distance` along the unit vector `wi` is hidden. The emitter with the index `own` does

@@ -102,7 +102,7 @@ fn shapes_of_lights() {
     light(&[rect; 4097].join("[[light]]\n"), &["more than 4096 area lights"]);
 }
 
-/// What the format knows and the renderer does not yet: a sentence, and the oracle still renders it.
+/// What the format knows and the renderer does not yet: a sentence.
 #[test]
 fn not_supported_yet() {
     let refused = |scene: String, what: &str| {
@@ -114,8 +114,4 @@ fn not_supported_yet() {
     };
     let render = |key| SCENE.replace("[render]", &format!("[render]\n{key}"));
     refused(render("indirect = { vpls = 64 }"), "indirect light");
-    Folder::new().refused(
-        &["reference", "scene.toml", "-o", "a.exr", "--integrator", "path"],
-        &["path", "not supported yet"],
-    );
 }

@@ -45,18 +45,17 @@ fn sponza() {
 }
 
 #[test]
-fn samurai_monastery_within_a_second_and_a_half() {
+fn samurai_monastery() {
     a_small_model_without_mtl_loads_like_the_large_ones();
     let start = Instant::now();
     let Some(scene) = model("samurai_monastry.obj", "") else {
         return;
     };
     let seconds = start.elapsed().as_secs_f64();
+    // 0.3 s on an idle core.
     println!("{seconds:.3} s, {} triangles, {:?}", triangles(&scene), scene.warnings);
     assert!((120_000..=125_500).contains(&triangles(&scene)), "{}", triangles(&scene));
     assert!(scene.materials.len() <= 82);
-    // It takes 0.3 s on an idle core; a debug build has no limit.
-    assert!(seconds < 1.5 || cfg!(debug_assertions), "{seconds}");
 }
 
 #[test]

@@ -26,6 +26,13 @@ impl Cylinder {
         start.max(start + self.length * self.axis.dot(normal)) + self.radius
     }
 
+    /// Centre, squared radius and area.
+    pub(super) fn extent(&self) -> (DVec3, f64, f64) {
+        let half = 0.5 * self.length;
+        let size2 = half * half + self.radius * self.radius;
+        (self.start + half * self.axis, size2, 2.0 * PI * self.radius * self.length)
+    }
+
     /// A point of the side that is turned to `origin`; none from inside.
     pub(super) fn sample(&self, origin: DVec3, xi: DVec2) -> Option<Seen> {
         let out = self.perpendicular(origin - self.start);

@@ -47,17 +47,17 @@ enum Shape {
 
 /// A point of a light as seen from a point in space.
 #[derive(Clone, Copy, Debug)]
-struct Seen {
+pub(super) struct Seen {
     /// Unit direction towards the light.
-    wi: DVec3,
+    pub(super) wi: DVec3,
     /// Metres.
-    distance: f64,
+    pub(super) distance: f64,
     /// The light's front is seen.
     front: bool,
     /// Texture coordinates.
     uv: DVec2,
     /// Density of the light's sampling per solid angle at the point, sr⁻¹.
-    pdf: f64,
+    pub(super) pdf: f64,
 }
 
 /// A number per channel with its standard error.
@@ -109,14 +109,14 @@ impl<'a> Emitter<'a> {
         if self.visible { self.along(ray.origin, ray.direction).map(|seen| seen.distance) } else { None }
     }
 
-    fn along(&self, origin: DVec3, direction: DVec3) -> Option<Seen> {
+    pub(super) fn along(&self, origin: DVec3, direction: DVec3) -> Option<Seen> {
         match &self.shape {
             Shape::Planar(shape) => shape.along(origin, direction),
             Shape::Cylinder(shape) => shape.along(origin, direction),
         }
     }
 
-    fn sample(&self, origin: DVec3, xi: DVec2) -> Option<Seen> {
+    pub(super) fn sample(&self, origin: DVec3, xi: DVec2) -> Option<Seen> {
         match &self.shape {
             Shape::Planar(shape) => shape.sample(origin, xi),
             Shape::Cylinder(shape) => shape.sample(origin, xi),
@@ -133,8 +133,18 @@ impl<'a> Emitter<'a> {
         highest <= 0.0 || !(front || self.two_sided)
     }
 
+    /// A guess of what the light does at a surface, to choose among lights; 0 only where it does nothing.
+    pub(super) fn weight(&self, surface: &Surface) -> f64 {
+        let (center, size2, area) = match &self.shape {
+            Shape::Planar(shape) => shape.extent(),
+            Shape::Cylinder(shape) => shape.extent(),
+        };
+        let solid_angle = area / (center.distance_squared(surface.position) + size2);
+        if self.below(surface) { 0.0 } else { self.radiance.max_element() * solid_angle }
+    }
+
     /// Radiance leaving towards the observer.
-    fn emitted(&self, seen: &Seen) -> DVec3 {
+    pub(super) fn emitted(&self, seen: &Seen) -> DVec3 {
         if !(seen.front || self.two_sided) {
             return DVec3::ZERO;
         }

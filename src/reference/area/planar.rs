@@ -81,6 +81,12 @@ impl Planar {
         ((self.center - origin).dot(normal) + reach, (origin - self.center).dot(self.normal) > 0.0)
     }
 
+    /// Centre, squared radius and area of the parallelogram.
+    pub(super) fn extent(&self) -> (DVec3, f64, f64) {
+        let size2 = self.u.length_squared() + self.v.length_squared();
+        (self.center, size2, 4.0 * self.u.cross(self.v).length())
+    }
+
     /// A point of the outline or, for loops, of the rectangle: then possibly none.
     pub(super) fn sample(&self, origin: DVec3, xi: DVec2) -> Option<Seen> {
         let st = match self.outline {
