@@ -5,8 +5,10 @@
 //! 3. Top nodes come first, then 64 leaves for each: a vector of invocations tests as many at once, so neither stack nor
 //!    pointers. Two levels suffice: a million lights have 512 top nodes, 3 µs a parent on lavapipe.
 //! 4. Many lights without a range get a tree of their own, by [`moments`].
+//! 5. Lights that move keep their order for a while, by [`moving`].
 
 pub mod moments;
+pub mod moving;
 
 use crate::hilbert;
 use crate::scene::PointLight;
@@ -38,14 +40,10 @@ impl LightTree {
     /// Orders the lights and builds the tree.
     #[must_use]
     pub fn new(lights: &[PointLight]) -> Self {
-        let mut ordered = Vec::with_capacity(lights.len());
-        append_along_curve(lights, true, &mut ordered);
-        let ranged = ordered.len();
-        let nodes = build(&ordered);
-        append_along_curve(lights, false, &mut ordered);
-        let unranged = &ordered[ranged..];
-        let moments =
-            if unranged.len() > LIGHTS_WITHOUT_CUT { moments::build(unranged, ranged) } else { vec![] };
+        let (order, ranged) = order(lights);
+        let ordered: Vec<PointLight> = order.iter().map(|&index| lights[index as usize]).collect();
+        let nodes = build(&ordered[..ranged]);
+        let moments = moments_of(&ordered[ranged..], ranged);
         Self { lights: ordered, ranged, nodes, moments }
     }
 
@@ -64,26 +62,61 @@ pub fn median_range(lights: &[PointLight]) -> f32 {
     if ranges.is_empty() { 0.0 } else { *ranges.select_nth_unstable_by(middle, f32::total_cmp).1 }
 }
 
-/// Appends those lights that have a range, or those that have none, in their curve's order.
-fn append_along_curve(lights: &[PointLight], ranged: bool, ordered: &mut Vec<PointLight>) {
-    let of_kind = |light: &PointLight| light.range.is_some() == ranged;
-    let count = lights.iter().filter(|light| of_kind(light)).count();
-    if count == lights.len() {
-        let order = hilbert::order(lights.iter().map(|light| light.position));
-        ordered.extend(order.into_iter().map(|index| lights[index as usize]));
-    } else if count > 0 {
-        let kind: Vec<_> = lights.iter().copied().filter(of_kind).collect();
-        append_along_curve(&kind, ranged, ordered);
+/// Indices of the lights in device order, and how many of them have a range.
+#[must_use]
+pub fn order(lights: &[PointLight]) -> (Vec<u32>, usize) {
+    let ranged = lights.iter().filter(|light| light.range.is_some()).count();
+    if ranged == 0 || ranged == lights.len() {
+        return (hilbert::order(lights.iter().map(|light| light.position)), ranged);
     }
+    let along_curve = |ranged: bool| {
+        let of_kind = |&index: &u32| lights[index as usize].range.is_some() == ranged;
+        let kind: Vec<u32> = (0..lights.len() as u32).filter(of_kind).collect();
+        let order = hilbert::order(kind.iter().map(|&index| lights[index as usize].position));
+        order.into_iter().map(move |place| kind[place as usize])
+    };
+    (along_curve(true).chain(along_curve(false)).collect(), ranged)
+}
+
+/// The tree over lights without a range, the first of which has index `first` among all; empty where they are few.
+#[must_use]
+pub fn moments_of(lights: &[PointLight], first: usize) -> Vec<MomentNode> {
+    if lights.len() > LIGHTS_WITHOUT_CUT { moments::build(lights, first) } else { vec![] }
 }
 
 fn build(lights: &[PointLight]) -> Vec<LightNode> {
-    let leaf = |(i, part): (usize, &[PointLight])| {
-        let (lower, upper) = bounds(part);
-        let (first, count) = ((i * LEAF) as u32, part.len() as u32);
-        LightNode { lower: lower.to_array(), first, upper: upper.to_array(), count }
+    let leaf = |(number, part): (usize, &[PointLight])| {
+        let spheres = part.iter().map(|light| (light.position, light.range.unwrap_or(f32::MAX)));
+        leaf(number, part.len(), spheres)
     };
-    let leaves: Vec<LightNode> = lights.par_chunks(LEAF).enumerate().map(leaf).collect();
+    with_tops(lights.par_chunks(LEAF).enumerate().map(leaf).collect(), lights.len())
+}
+
+/// The leaf of that number over so many lights, of which it needs positions and ranges.
+fn leaf(number: usize, count: usize, spheres: impl Iterator<Item = (Vec3, f32)>) -> LightNode {
+    let (lower, upper) =
+        spheres.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), (position, range)| {
+            // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
+            let reach = range * 1.0001 + 1e-6 * position.abs().element_sum();
+            (lower.min(position - reach), upper.max(position + reach))
+        });
+    LightNode {
+        lower: lower.to_array(),
+        first: (number * LEAF) as u32,
+        upper: upper.to_array(),
+        count: count as u32,
+    }
+}
+
+/// A light's first texel; its range is `f32::MAX` where it has none.
+#[must_use]
+pub fn place_texel(position: Vec3, range: f32) -> [f32; 4] {
+    // The square of the smallest ranges is 0, that of the largest infinite.
+    position.extend((1.0 / (range * range)).min(f32::MAX)).to_array()
+}
+
+/// Puts the top nodes before the leaves of so many lights.
+fn with_tops(leaves: Vec<LightNode>, lights: usize) -> Vec<LightNode> {
     let top = |below: &[LightNode]| {
         below[1..].iter().fold(below[0], |top, leaf| LightNode {
             lower: Vec3::from(top.lower).min(leaf.lower.into()).to_array(),
@@ -96,7 +129,7 @@ fn build(lights: &[PointLight]) -> Vec<LightNode> {
     // No box meets the last top node's missing leaves.
     let nowhere = LightNode {
         lower: [f32::INFINITY; 3],
-        first: lights.len() as u32,
+        first: lights as u32,
         upper: [f32::NEG_INFINITY; 3],
         count: 0,
     };
@@ -104,15 +137,6 @@ fn build(lights: &[PointLight]) -> Vec<LightNode> {
     nodes.extend(leaves);
     nodes.resize(all, nowhere);
     nodes
-}
-
-/// The box of the lights' spheres.
-fn bounds(lights: &[PointLight]) -> (Vec3, Vec3) {
-    lights.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), light| {
-        // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
-        let reach = light.range.unwrap_or(f32::MAX) * 1.0001 + 1e-6 * light.position.abs().max_element();
-        (lower.min(light.position - reach), upper.max(light.position + reach))
-    })
 }
 
 #[cfg(test)]

@@ -65,11 +65,11 @@ shared! {
         MATERIALS_PER_ROW_LOG2 = 6;
         /// log2 of the texels of a record.
         MATERIAL_RECORD_LOG2 = 4;
-        /// Lights across the light texture; each is two texels wide. A power of two.
+        /// Lights across the light texture: places in one layer, powers in the next. A power of two.
         LIGHTS_PER_ROW = 512;
         /// log2 of it.
         LIGHTS_PER_ROW_LOG2 = 9;
-        /// log2 of the rows of a layer of the light texture.
+        /// log2 of the rows of a layer of it.
         LIGHT_ROWS_LOG2 = 12;
         /// log2 of the texels across a layer of light lists.
         LIST_WIDTH_LOG2 = 10;
@@ -295,7 +295,7 @@ shared! {
         }
         /// Descriptors of a scene.
         scene = 1 {
-            /// Lights, two texels each.
+            /// Lights, a texel of place and one of power each.
             SCENE_LIGHTS = 0: StorageImage;
             /// [`LightNode`](super::LightNode)s, two texels each: the top nodes, then their leaves.
             SCENE_LIGHT_NODES = 1: Sampled;
