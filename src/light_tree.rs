@@ -87,25 +87,43 @@ pub fn moments_of(lights: &[PointLight], first: usize) -> Vec<MomentNode> {
 
 fn build(lights: &[PointLight]) -> Vec<LightNode> {
     let leaf = |(number, part): (usize, &[PointLight])| {
-        let spheres = part.iter().map(|light| (light.position, light.range.unwrap_or(f32::MAX)));
-        leaf(number, part.len(), spheres)
+        let mut reach = Reach::default();
+        part.iter().for_each(|light| reach.add(light.position, light.range.unwrap_or(f32::MAX)));
+        reach.leaf(number, part.len())
     };
     with_tops(lights.par_chunks(LEAF).enumerate().map(leaf).collect(), lights.len())
 }
 
-/// The leaf of that number over so many lights, of which it needs positions and ranges.
-fn leaf(number: usize, count: usize, spheres: impl Iterator<Item = (Vec3, f32)>) -> LightNode {
-    let (lower, upper) =
-        spheres.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), (position, range)| {
-            // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
-            let reach = range * 1.0001 + 1e-6 * position.abs().element_sum();
-            (lower.min(position - reach), upper.max(position + reach))
-        });
-    LightNode {
-        lower: lower.to_array(),
-        first: (number * LEAF) as u32,
-        upper: upper.to_array(),
-        count: count as u32,
+/// The box of the spheres of lights.
+#[derive(Clone, Copy)]
+struct Reach {
+    lower: Vec3,
+    upper: Vec3,
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self { lower: Vec3::INFINITY, upper: Vec3::NEG_INFINITY }
+    }
+}
+
+impl Reach {
+    #[inline]
+    fn add(&mut self, position: Vec3, range: f32) {
+        // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
+        let reach = range * 1.0001 + 1e-6 * position.abs().element_sum();
+        self.lower = self.lower.min(position - reach);
+        self.upper = self.upper.max(position + reach);
+    }
+
+    /// The leaf of that number, over so many lights.
+    fn leaf(self, number: usize, count: usize) -> LightNode {
+        LightNode {
+            lower: self.lower.to_array(),
+            first: (number * LEAF) as u32,
+            upper: self.upper.to_array(),
+            count: count as u32,
+        }
     }
 }
 

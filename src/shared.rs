@@ -498,7 +498,7 @@ shared! {
             groups_y: uint;
             /// 1.
             groups_z: uint;
-            /// Workgroups over parents, one each.
+            /// Workgroups over parents to be gathered, one each.
             parents_x: uint;
             /// Rows of them.
             parents_y: uint;
@@ -534,6 +534,8 @@ shared! {
             cut_entries: uint;
             /// Longest cut.
             cut_longest: uint;
+            /// The first parent of those to be gathered.
+            first_parent: uint;
         }
         /// A node of the light tree: a box that holds its lights' spheres.
         LightNode {

@@ -155,7 +155,7 @@ uint entries() {
 }
 
 void main() {
-    uint parent = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint parent = counters.first_parent + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     if (parent >= min(counters.parents, frame.parent_capacity)) return;
     uint index = frame.cluster_capacity + parent;
     bound(clusters[index].parent, clusters[index].children);

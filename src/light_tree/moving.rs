@@ -8,7 +8,7 @@
 //! A million lights take 75 CPU ms where an interval begins and 14 in any other frame; sorted anew in each they took 168,
 //! with their upload.
 
-use super::{LEAF, leaf, moments_of, order, place_texel, with_tops};
+use super::{LEAF, Reach, moments_of, order, place_texel, with_tops};
 use crate::scene::motion::Placement;
 use crate::scene::{Motion, PointLight, Scene};
 use crate::shared::{LightNode, MomentNode};
@@ -118,38 +118,53 @@ impl MovingLights {
     #[must_use]
     pub fn place(&self, t: f64, texels: &mut [[f32; 4]]) -> PlacedTrees {
         let placements = self.placements(t);
-        let place = |traveller: &Traveller| {
-            let placement = &placements[traveller.course as usize];
-            placement.place(traveller.start, traveller.direction) - self.origin
-        };
         let (ranged, unranged) = texels[..self.travellers.len()].split_at_mut(self.ranged);
         let (with_range, without) = self.travellers.split_at(self.ranged);
         let leaves = ranged.par_chunks_mut(LEAF).zip(with_range.par_chunks(LEAF)).enumerate();
         let leaves = leaves.map(|(number, (texels, travellers))| {
-            let spheres = texels.iter_mut().zip(travellers).map(|(texel, traveller)| {
-                let position = place(traveller);
-                // Written only: to read memory that devices share may be slow.
-                *texel = place_texel(position, traveller.range);
-                (position, traveller.range)
-            });
-            leaf(number, travellers.len(), spheres)
+            let mut reach = Reach::default();
+            self.place_some(&placements, travellers, texels, |position, range| reach.add(position, range));
+            reach.leaf(number, travellers.len())
         });
         let nodes = with_tops(leaves.collect(), self.ranged);
         let mut lights: Vec<PointLight> = self.in_order().skip(self.ranged).copied().collect();
-        for ((texel, traveller), light) in unranged.iter_mut().zip(without).zip(&mut lights) {
-            light.position = place(traveller);
-            *texel = place_texel(light.position, traveller.range);
-        }
+        let mut left = lights.iter_mut();
+        self.place_some(&placements, without, unranged, |position, _| {
+            left.next().into_iter().for_each(|light| light.position = position);
+        });
         PlacedTrees { nodes, moments: moments_of(&lights, self.ranged) }
+    }
+
+    /// Writes the texels of lights, and hands on where they are and their ranges.
+    #[inline]
+    fn place_some(
+        &self,
+        placements: &[Placement],
+        travellers: &[Traveller],
+        texels: &mut [[f32; 4]],
+        mut also: impl FnMut(Vec3, f32),
+    ) {
+        // Texels are only written: to read memory that devices share may be slow.
+        let mut texels = texels.iter_mut();
+        for group in travellers.chunk_by(|a, b| a.course == b.course) {
+            let lights = group.iter().zip(&mut texels);
+            let lights = lights
+                .map(|(traveller, texel)| (traveller.start, traveller.direction, (texel, traveller.range)));
+            placements[group[0].course as usize].place(lights, |(texel, range), position| {
+                let position = position - self.origin;
+                *texel = place_texel(position, range);
+                also(position, range);
+            });
+        }
     }
 
     /// In file order, about the device's origin.
     fn lights_at(&self, t: f64) -> Vec<PointLight> {
         let mut lights = self.lights.clone();
         for (motion, placement) in self.motions.iter().zip(&self.placements(t)[1..]) {
-            let group =
-                lights[motion.lights.clone()].par_iter_mut().zip(&self.directions[motion.lights.clone()]);
-            group.for_each(|(light, direction)| light.position = placement.place(light.position, *direction));
+            let group = lights[motion.lights.clone()].iter_mut().zip(&self.directions[motion.lights.clone()]);
+            let group = group.map(|(light, direction)| (light.position, *direction, light));
+            placement.place(group, |light, position| light.position = position);
         }
         lights.par_iter_mut().for_each(|light| light.position -= self.origin);
         lights

@@ -5,7 +5,8 @@
 //! 3. `scan_tiles`: a parent for each block and band that has clusters, and ids for these.
 //! 4. `bounds`: each pixel's cluster id; each cluster's box of samples.
 //! 5. `area`: which area lights reach each cluster, one bit each, in the texels before the lists.
-//! 6. `gather`: the lights that reach each parent, by a walk over the light tree.
+//! 6. `gather`: the lights that reach each parent, by a walk over the light tree. Where a parent's list would be too long,
+//!    `split` makes parents of its children, and these are gathered.
 //! 7. `count`: which lights of its parent's list reach each cluster, kept as masks.
 //! 8. `scan_lists`: where each list lies.
 //! 9. `write`: the lists, in Hilbert order, four indices a texel, from the masks.
@@ -128,6 +129,7 @@ pub struct ClusterPass {
 /// Those of lists.
 struct Lists {
     gather: ComputePipeline,
+    split: ComputePipeline,
     count: ComputePipeline,
     scan_lists: ComputePipeline,
     write: ComputePipeline,
@@ -160,6 +162,7 @@ impl ClusterPass {
                 count: step(shaders::CLUSTER_COUNT_COMP)?,
                 scan_lists: step(shaders::CLUSTER_SCAN_LISTS_COMP)?,
                 write: step(shaders::CLUSTER_WRITE_COMP)?,
+                split: step(shaders::CLUSTER_SPLIT_COMP)?,
                 fold: folds.then(|| step(shaders::CLUSTER_FOLD_COMP)).transpose()?,
             })
         };
@@ -223,6 +226,8 @@ impl ClusterPass {
 impl Lists {
     fn record(&self, cmd: &mut Commands, sets: &[DescriptorSet<'_>], targets: &ClusterTargets) {
         let steps = [
+            (&self.gather, Some(OF_PARENTS)),
+            (&self.split, None),
             (&self.gather, Some(OF_PARENTS)),
             (&self.count, Some(OF_CLUSTERS)),
             (&self.scan_lists, None),

@@ -61,6 +61,7 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             "cluster/scan_tiles.comp"
             | "cluster/scan_lists.comp"
             | "cluster/scan_cuts.comp"
+            | "cluster/split.comp"
             | "resolve/gather.comp" => Some([scan, 1, 1]),
             // One invocation per element.
             _ => Some([linear, 1, 1]),
