@@ -107,7 +107,7 @@ impl GpuScene {
         let seen: Vec<Option<Surface>> = seen.collect();
         let origin = origin(scene, &seen);
         let geometry = Geometry::new(scene, &of_mesh, &seen, origin);
-        let lights = placed(scene, 0.0, origin);
+        let lights = placed(scene, origin);
         let light_images = LightImages::new(device, &lights)?;
         let records: Vec<_> = scene.materials.iter().map(record).collect();
         let record_buffer = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
@@ -144,7 +144,7 @@ impl GpuScene {
             _tables: tables,
             _textures: textures,
             _record_buffer: record_buffer,
-            moving: Moving::new(scene),
+            moving: Moving::new(device, scene, origin)?,
             light_images,
             _occluders: occluders,
         })
@@ -161,7 +161,7 @@ impl GpuScene {
     /// # Errors
     /// [`Error::Vulkan`] from the driver.
     pub fn move_lights(&self, t: f64) -> Result<()> {
-        self.moving.as_ref().map_or(Ok(()), |moving| moving.move_to(t, &self.light_images, self.origin))
+        self.moving.as_ref().map_or(Ok(()), |moving| moving.move_to(t, &self.light_images))
     }
 }
 

@@ -1,12 +1,15 @@
 //! Point lights in the order the device wants them, and the tree over that order.
 //!
 //! 1. Lights with a range come first, then those without; each kind along a Hilbert curve through its bounds.
-//! 2. Every 32 lights with a range make a leaf, every 64 leaves a top node; a node's box holds its lights' spheres.
-//! 3. Top nodes come first, then 64 leaves for each: a vector of invocations tests as many at once, so neither stack nor
-//!    pointers. Two levels suffice: a million lights have 512 top nodes, 3 µs a parent on lavapipe.
+//! 2. Every 32 lights with a range make a leaf, every 64 leaves a top node, every 64 of these a crown; a node's box holds
+//!    its lights' spheres.
+//! 3. Crowns come first, then the top nodes, then 64 leaves for each of these: a workgroup tests those below a node at
+//!    once, so neither stack nor pointers. Three levels suffice: a million lights have 8 crowns.
 //! 4. Many lights without a range get a tree of their own, by [`moments`].
+//! 5. Lights that move keep their order for a while, by [`moving`].
 
 pub mod moments;
+pub mod moving;
 
 use crate::hilbert;
 use crate::scene::PointLight;
@@ -27,7 +30,7 @@ pub struct LightTree {
     pub lights: Vec<PointLight>,
     /// How many have a range.
     pub ranged: usize,
-    /// Nodes over the lights with a range: the top ones, then `TOP_LEAVES` for each.
+    /// Nodes over the lights with a range: the crowns, the top nodes, then `TOP_LEAVES` for each of these.
     pub nodes: Vec<LightNode>,
     /// Nodes over the lights without a range, in depth-first order, with a null node behind them; empty where the lights
     /// are few.
@@ -38,21 +41,17 @@ impl LightTree {
     /// Orders the lights and builds the tree.
     #[must_use]
     pub fn new(lights: &[PointLight]) -> Self {
-        let mut ordered = Vec::with_capacity(lights.len());
-        append_along_curve(lights, true, &mut ordered);
-        let ranged = ordered.len();
-        let nodes = build(&ordered);
-        append_along_curve(lights, false, &mut ordered);
-        let unranged = &ordered[ranged..];
-        let moments =
-            if unranged.len() > LIGHTS_WITHOUT_CUT { moments::build(unranged, ranged) } else { vec![] };
+        let (order, ranged) = order(lights);
+        let ordered: Vec<PointLight> = order.iter().map(|&index| lights[index as usize]).collect();
+        let nodes = build(&ordered[..ranged]);
+        let moments = moments_of(&ordered[ranged..], ranged);
         Self { lights: ordered, ranged, nodes, moments }
     }
 
     /// Top nodes.
     #[must_use]
     pub fn top_nodes(&self) -> u32 {
-        (self.nodes.len() / (1 + FAN)) as u32
+        self.ranged.div_ceil(LEAF * FAN) as u32
     }
 }
 
@@ -64,55 +63,100 @@ pub fn median_range(lights: &[PointLight]) -> f32 {
     if ranges.is_empty() { 0.0 } else { *ranges.select_nth_unstable_by(middle, f32::total_cmp).1 }
 }
 
-/// Appends those lights that have a range, or those that have none, in their curve's order.
-fn append_along_curve(lights: &[PointLight], ranged: bool, ordered: &mut Vec<PointLight>) {
-    let of_kind = |light: &PointLight| light.range.is_some() == ranged;
-    let count = lights.iter().filter(|light| of_kind(light)).count();
-    if count == lights.len() {
-        let order = hilbert::order(lights.iter().map(|light| light.position));
-        ordered.extend(order.into_iter().map(|index| lights[index as usize]));
-    } else if count > 0 {
-        let kind: Vec<_> = lights.iter().copied().filter(of_kind).collect();
-        append_along_curve(&kind, ranged, ordered);
+/// Indices of the lights in device order, and how many of them have a range.
+#[must_use]
+pub fn order(lights: &[PointLight]) -> (Vec<u32>, usize) {
+    let ranged = lights.iter().filter(|light| light.range.is_some()).count();
+    if ranged == 0 || ranged == lights.len() {
+        return (hilbert::order(lights.iter().map(|light| light.position)), ranged);
     }
+    let along_curve = |ranged: bool| {
+        let of_kind = |&index: &u32| lights[index as usize].range.is_some() == ranged;
+        let kind: Vec<u32> = (0..lights.len() as u32).filter(of_kind).collect();
+        let order = hilbert::order(kind.iter().map(|&index| lights[index as usize].position));
+        order.into_iter().map(move |place| kind[place as usize])
+    };
+    (along_curve(true).chain(along_curve(false)).collect(), ranged)
+}
+
+/// The tree over lights without a range, the first of which has index `first` among all; empty where they are few.
+#[must_use]
+pub fn moments_of(lights: &[PointLight], first: usize) -> Vec<MomentNode> {
+    if lights.len() > LIGHTS_WITHOUT_CUT { moments::build(lights, first) } else { vec![] }
 }
 
 fn build(lights: &[PointLight]) -> Vec<LightNode> {
-    let leaf = |(i, part): (usize, &[PointLight])| {
-        let (lower, upper) = bounds(part);
-        let (first, count) = ((i * LEAF) as u32, part.len() as u32);
-        LightNode { lower: lower.to_array(), first, upper: upper.to_array(), count }
+    let leaf = |(number, part): (usize, &[PointLight])| {
+        let mut reach = Reach::default();
+        part.iter().for_each(|light| reach.add(light.position, light.range.unwrap_or(f32::MAX)));
+        reach.leaf(number, part.len())
     };
-    let leaves: Vec<LightNode> = lights.par_chunks(LEAF).enumerate().map(leaf).collect();
-    let top = |below: &[LightNode]| {
-        below[1..].iter().fold(below[0], |top, leaf| LightNode {
-            lower: Vec3::from(top.lower).min(leaf.lower.into()).to_array(),
-            upper: Vec3::from(top.upper).max(leaf.upper.into()).to_array(),
-            count: top.count + leaf.count,
-            ..top
+    with_tops(lights.par_chunks(LEAF).enumerate().map(leaf).collect(), lights.len())
+}
+
+/// The box of the spheres of lights.
+#[derive(Clone, Copy)]
+struct Reach {
+    lower: Vec3,
+    upper: Vec3,
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self { lower: Vec3::INFINITY, upper: Vec3::NEG_INFINITY }
+    }
+}
+
+impl Reach {
+    #[inline]
+    fn add(&mut self, position: Vec3, range: f32) {
+        // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
+        let reach = range * 1.0001 + 1e-6 * position.abs().element_sum();
+        self.lower = self.lower.min(position - reach);
+        self.upper = self.upper.max(position + reach);
+    }
+
+    /// The leaf of that number, over so many lights.
+    fn leaf(self, number: usize, count: usize) -> LightNode {
+        LightNode {
+            lower: self.lower.to_array(),
+            first: (number * LEAF) as u32,
+            upper: self.upper.to_array(),
+            count: count as u32,
+        }
+    }
+}
+
+/// A light's first texel; its range is `f32::MAX` where it has none.
+#[must_use]
+pub fn place_texel(position: Vec3, range: f32) -> [f32; 4] {
+    // The square of the smallest ranges is 0, that of the largest infinite.
+    position.extend((1.0 / (range * range)).min(f32::MAX)).to_array()
+}
+
+/// Puts crowns and top nodes before the leaves of so many lights.
+fn with_tops(mut leaves: Vec<LightNode>, lights: usize) -> Vec<LightNode> {
+    let over = |below: &[LightNode]| {
+        below[1..].iter().fold(below[0], |over, node| LightNode {
+            lower: Vec3::from(over.lower).min(node.lower.into()).to_array(),
+            upper: Vec3::from(over.upper).max(node.upper.into()).to_array(),
+            count: over.count + node.count,
+            ..over
         })
     };
-    let mut nodes: Vec<LightNode> = leaves.chunks(FAN).map(top).collect();
+    let tops: Vec<LightNode> = leaves.chunks(FAN).map(over).collect();
     // No box meets the last top node's missing leaves.
     let nowhere = LightNode {
         lower: [f32::INFINITY; 3],
-        first: lights.len() as u32,
+        first: lights as u32,
         upper: [f32::NEG_INFINITY; 3],
         count: 0,
     };
-    let all = nodes.len() * (1 + FAN);
+    leaves.resize(tops.len() * FAN, nowhere);
+    let mut nodes: Vec<LightNode> = tops.chunks(FAN).map(over).collect();
+    nodes.extend(tops);
     nodes.extend(leaves);
-    nodes.resize(all, nowhere);
     nodes
-}
-
-/// The box of the lights' spheres.
-fn bounds(lights: &[PointLight]) -> (Vec3, Vec3) {
-    lights.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), light| {
-        // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
-        let reach = light.range.unwrap_or(f32::MAX) * 1.0001 + 1e-6 * light.position.abs().max_element();
-        (lower.min(light.position - reach), upper.max(light.position + reach))
-    })
 }
 
 #[cfg(test)]
@@ -136,11 +180,12 @@ mod tests {
 
     #[test]
     fn every_light_is_in_one_leaf_and_inside_every_box_above_it() {
-        for count in [1, 15, 16, 17, 128, 129, 5000] {
+        for count in [1, 31, 32, 33, 2048, 2049, 150_000] {
             let tree = LightTree::new(&lights(count));
             let mut seen = vec![0; count];
             let tops = tree.top_nodes() as usize;
-            let (top_nodes, leaves) = tree.nodes.split_at(tops);
+            let (crowns, below) = tree.nodes.split_at(tops.div_ceil(FAN));
+            let (top_nodes, leaves) = below.split_at(tops);
             assert_eq!(leaves.len(), tops * FAN);
             for (i, leaf) in leaves.iter().enumerate() {
                 let lights = leaf.first as usize..(leaf.first + leaf.count) as usize;
@@ -148,7 +193,7 @@ mod tests {
                 for (light, seen) in tree.lights[lights.clone()].iter().zip(&mut seen[lights]) {
                     *seen += 1;
                     let range = light.range.unwrap();
-                    for node in [leaf, &top_nodes[i / FAN]] {
+                    for node in [leaf, &top_nodes[i / FAN], &crowns[i / FAN / FAN]] {
                         assert!(light.position.cmpge(Vec3::from(node.lower) + range).all());
                         assert!(light.position.cmple(Vec3::from(node.upper) - range).all());
                     }

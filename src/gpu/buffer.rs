@@ -144,6 +144,19 @@ impl<T: Pod> Buffer<T> {
         }
     }
 
+    /// A host-visible buffer's memory, to be written; reading it may be slow.
+    ///
+    /// # Errors
+    /// As [`Buffer::write`].
+    pub fn mapped(&mut self) -> Result<&mut [T]> {
+        let bytes = self.len * size_of::<T>();
+        if self.allocation.as_ref().and_then(Allocation::mapped_slice).is_none() {
+            return Err(self.not_mapped());
+        }
+        let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
+        Ok(mapped.map_or(&mut [], |mapped| bytemuck::cast_slice_mut(&mut mapped[..bytes])))
+    }
+
     /// Copies a host-visible buffer's contents out; the device must have finished writing.
     ///
     /// # Errors

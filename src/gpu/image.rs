@@ -105,6 +105,46 @@ impl Image {
         }
     }
 
+    /// Copies whole layers of the top mip level, which lie one after the other in `texels`, to layers `first`, `first` + 2
+    /// and so on, from use `before` to use `after`; the others keep what they hold unless `before` is [`Use::Nothing`].
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn upload_every_other<T: Pod>(
+        &self,
+        texels: &Buffer<T>,
+        first: u32,
+        before: Use,
+        after: Use,
+    ) -> Result<()> {
+        let bytes = u64::from(self.size[0]) * u64::from(self.size[1]) * size_of::<T>() as u64;
+        let layers = (first..self.layers).step_by(2);
+        let regions: Vec<_> = (0..)
+            .zip(layers)
+            .map(|(place, layer)| {
+                let mut region = self.region(0, self.size[1], place * bytes);
+                region.image_subresource.base_array_layer = layer;
+                region.image_subresource.layer_count = 1;
+                region
+            })
+            .collect();
+        self.device.run("upload layers", |cmd| {
+            cmd.transition(self, before, Use::TransferWrite);
+            // SAFETY: the buffer holds half the image's layers, and both are alive until the work has finished.
+            unsafe {
+                self.device.raw.cmd_copy_buffer_to_image(
+                    cmd.raw,
+                    texels.raw,
+                    self.raw,
+                    vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                    &regions,
+                );
+            };
+            cmd.transition(self, Use::TransferWrite, after);
+            Ok(())
+        })
+    }
+
     fn region(&self, mip: u32, rows: u32, buffer_offset: u64) -> vk::BufferImageCopy {
         vk::BufferImageCopy {
             buffer_offset,

@@ -11,6 +11,14 @@ fn at(scene: &Scene, t: f64) -> HdrImage {
     Rig::new(standing).render()
 }
 
+/// Lights that move keep the order of the middle of an interval, so sums may round differently: by half a unit in the last
+/// place for each light of a list, had they all the same sign of error.
+fn assert_same_light(picture: &HdrImage, standing: &HdrImage, t: f64) {
+    for (a, b) in picture.pixels.iter().flatten().zip(standing.pixels.iter().flatten()) {
+        assert!((a - b).abs() <= 64.0 * f32::EPSILON * b, "t = {t}: {a} is not {b}");
+    }
+}
+
 #[test]
 fn a_moving_light_lights_as_one_that_stands() {
     let lights = [ranged_lights(3000, 0.8), DRIFT.into(), unranged_lights(20), ORBIT.into()].concat();
@@ -20,7 +28,7 @@ fn a_moving_light_lights_as_one_that_stands() {
     // Back and forth: no picture depends on those before it.
     for t in [0.0, 0.4, 7.25, 0.4] {
         let picture = rig.render_at(t);
-        assert!(picture == at(&scene, t), "t = {t}");
+        assert_same_light(&picture, &at(&scene, t), t);
         seen.push(picture);
     }
     assert!(seen[0] != seen[1] && seen[1] == seen[3]);

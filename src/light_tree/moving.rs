@@ -1,0 +1,190 @@
+//! Point lights that move: their order, kept for as long as it is good, and where they are.
+//!
+//! 1. Time is cut into intervals in which no light goes farther than a share of a leaf's side. All times of an interval have
+//!    the order of its middle: it depends on the time alone, not on the frames before.
+//! 2. The lights lie in that order, each with all that its motion needs. For a frame they are placed one after the other
+//!    in the memory that the device copies from, and boxes are fitted to them.
+//!
+//! A million lights take 75 CPU ms where an interval begins and 14 in any other frame; sorted anew in each they took 168,
+//! with their upload.
+
+use super::{LEAF, Reach, moments_of, order, place_texel, with_tops};
+use crate::scene::motion::Placement;
+use crate::scene::{Motion, PointLight, Scene};
+use crate::shared::{LightNode, MomentNode};
+use glam::Vec3;
+use rayon::prelude::*;
+
+/// What a light goes away from where it was ordered, of a leaf's side, at most.
+const SHARE: f64 = 1.0 / 16.0;
+
+/// A scene's point lights, of which some move.
+#[derive(Clone, Debug)]
+pub struct MovingLights {
+    /// In file order, where they are at time 0.
+    lights: Vec<PointLight>,
+    motions: Vec<Motion>,
+    /// Of each light: see `Course::direction`.
+    directions: Vec<Vec3>,
+    /// World position of the device's origin.
+    origin: Vec3,
+    /// Seconds that have one order.
+    interval: f64,
+    /// The time whose order this is, seconds; NaN: none yet.
+    ordered_at: f64,
+    /// Indices into `lights`.
+    order: Vec<u32>,
+    /// How many have a range: the first of the order.
+    ranged: usize,
+    travellers: Vec<Traveller>,
+}
+
+/// A light in its place in the order.
+#[derive(Clone, Copy, Debug)]
+struct Traveller {
+    /// World position at time 0.
+    start: Vec3,
+    /// `f32::MAX` for none.
+    range: f32,
+    direction: Vec3,
+    /// 0: it stands; else 1 + its motion.
+    course: u32,
+}
+
+/// The trees over lights where they are at a time.
+#[derive(Debug, Default)]
+pub struct PlacedTrees {
+    /// See [`super::LightTree`].
+    pub nodes: Vec<LightNode>,
+    /// See [`super::LightTree`].
+    pub moments: Vec<MomentNode>,
+}
+
+impl MovingLights {
+    /// Those of a scene, about the device's origin.
+    #[must_use]
+    pub fn new(scene: &Scene, origin: Vec3) -> Self {
+        let mut directions = vec![Vec3::ZERO; scene.point_lights.len()];
+        for motion in &scene.motions {
+            let group = directions[motion.lights.clone()].par_iter_mut().enumerate();
+            group.for_each(|(index, direction)| *direction = motion.course.direction(index as u32));
+        }
+        Self {
+            interval: interval(&scene.point_lights, &scene.motions),
+            lights: scene.point_lights.clone(),
+            motions: scene.motions.clone(),
+            directions,
+            origin,
+            ordered_at: f64::NAN,
+            order: Vec::new(),
+            ranged: 0,
+            travellers: Vec::new(),
+        }
+    }
+
+    /// Orders the lights for time `t`, in seconds; whether that changed their order.
+    pub fn order_for(&mut self, t: f64) -> bool {
+        let middle = (t / self.interval).round() * self.interval;
+        // Where nothing moves far, or all lights are at one place, there are no intervals.
+        let time = if middle.is_finite() { middle } else { t };
+        if self.ordered_at == time {
+            return false;
+        }
+        (self.order, self.ranged) = order(&self.lights_at(time));
+        let mut courses = vec![0; self.lights.len()];
+        for (motion, course) in self.motions.iter().zip(1..) {
+            courses[motion.lights.clone()].fill(course);
+        }
+        let traveller = |&index: &u32| {
+            let light = &self.lights[index as usize];
+            Traveller {
+                start: light.position,
+                range: light.range.unwrap_or(f32::MAX),
+                direction: self.directions[index as usize],
+                course: courses[index as usize],
+            }
+        };
+        self.order.par_iter().map(traveller).collect_into_vec(&mut self.travellers);
+        self.ordered_at = time;
+        true
+    }
+
+    /// The lights in their order, where they are at time 0.
+    pub fn in_order(&self) -> impl Iterator<Item = &PointLight> {
+        self.order.iter().map(|&index| &self.lights[index as usize])
+    }
+
+    /// Writes where the ordered lights are at time `t`, in seconds, to as many texels, and builds their trees.
+    #[must_use]
+    pub fn place(&self, t: f64, texels: &mut [[f32; 4]]) -> PlacedTrees {
+        let placements = self.placements(t);
+        let (ranged, unranged) = texels[..self.travellers.len()].split_at_mut(self.ranged);
+        let (with_range, without) = self.travellers.split_at(self.ranged);
+        let leaves = ranged.par_chunks_mut(LEAF).zip(with_range.par_chunks(LEAF)).enumerate();
+        let leaves = leaves.map(|(number, (texels, travellers))| {
+            let mut reach = Reach::default();
+            self.place_some(&placements, travellers, texels, |position, range| reach.add(position, range));
+            reach.leaf(number, travellers.len())
+        });
+        let nodes = with_tops(leaves.collect(), self.ranged);
+        let mut lights: Vec<PointLight> = self.in_order().skip(self.ranged).copied().collect();
+        let mut left = lights.iter_mut();
+        self.place_some(&placements, without, unranged, |position, _| {
+            left.next().into_iter().for_each(|light| light.position = position);
+        });
+        PlacedTrees { nodes, moments: moments_of(&lights, self.ranged) }
+    }
+
+    /// Writes the texels of lights, and hands on where they are and their ranges.
+    #[inline]
+    fn place_some(
+        &self,
+        placements: &[Placement],
+        travellers: &[Traveller],
+        texels: &mut [[f32; 4]],
+        mut also: impl FnMut(Vec3, f32),
+    ) {
+        // Texels are only written: to read memory that devices share may be slow.
+        let mut texels = texels.iter_mut();
+        for group in travellers.chunk_by(|a, b| a.course == b.course) {
+            let lights = group.iter().zip(&mut texels);
+            let lights = lights
+                .map(|(traveller, texel)| (traveller.start, traveller.direction, (texel, traveller.range)));
+            placements[group[0].course as usize].place(lights, |(texel, range), position| {
+                let position = position - self.origin;
+                *texel = place_texel(position, range);
+                also(position, range);
+            });
+        }
+    }
+
+    /// In file order, about the device's origin.
+    fn lights_at(&self, t: f64) -> Vec<PointLight> {
+        let mut lights = self.lights.clone();
+        for (motion, placement) in self.motions.iter().zip(&self.placements(t)[1..]) {
+            let group = lights[motion.lights.clone()].iter_mut().zip(&self.directions[motion.lights.clone()]);
+            let group = group.map(|(light, direction)| (light.position, *direction, light));
+            placement.place(group, |light, position| light.position = position);
+        }
+        lights.par_iter_mut().for_each(|light| light.position -= self.origin);
+        lights
+    }
+
+    /// By a traveller's course.
+    fn placements(&self, t: f64) -> Vec<Placement> {
+        let moved = self.motions.iter().map(|motion| motion.course.at(t));
+        std::iter::once(Placement::Still).chain(moved).collect()
+    }
+}
+
+/// Seconds in which the fastest light goes twice its share of a leaf's side.
+fn interval(lights: &[PointLight], motions: &[Motion]) -> f64 {
+    let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (lower, upper) = lights
+        .iter()
+        .fold(start, |(lower, upper), light| (lower.min(light.position), upper.max(light.position)));
+    let extent = f64::from((upper - lower).max_element()).max(0.0);
+    let side = extent * (LEAF as f64 / lights.len().max(1) as f64).cbrt();
+    let speeds = motions.iter().map(|motion| motion.speed(&lights[motion.lights.clone()]));
+    2.0 * SHARE * side / speeds.fold(0.0, f64::max)
+}
