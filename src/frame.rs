@@ -4,6 +4,7 @@
 
 mod cut;
 mod results;
+mod retune;
 mod settings;
 mod timing;
 

@@ -30,16 +30,20 @@ enum Variable {
 }
 
 /// Every variable by its name.
-const VARIABLES: [(&str, Variable); 11] = [
+const VARIABLES: [(&str, Variable); 15] = [
     ("position", Variable::Surface(Quantity::Position)),
     ("normal", Variable::Surface(Quantity::Normal)),
     ("material", Variable::Surface(Quantity::Material)),
     ("light_count", Variable::Surface(Quantity::LightCount)),
+    ("albedo", Variable::Surface(Quantity::Albedo)),
+    ("roughness", Variable::Surface(Quantity::Roughness)),
+    ("depth", Variable::Surface(Quantity::Depth)),
     ("cluster", Variable::Surface(Quantity::Cluster)),
     ("slice", Variable::Surface(Quantity::Slice)),
     ("pair_ratio", Variable::Surface(Quantity::PairRatio)),
     ("folded", Variable::Surface(Quantity::Folded)),
     ("light_error", Variable::Surface(Quantity::LightError)),
+    ("ltc_bound", Variable::Surface(Quantity::LtcBound)),
     ("direct", Variable::Direct),
     ("indirect", Variable::Indirect),
 ];
@@ -153,8 +157,8 @@ mod tests {
 
     #[test]
     fn unknown_variables_are_named() {
-        let error = AovOutput::new(&("albedo".into(), "a.exr".into())).err().map(|error| error.to_string());
-        assert!(error.is_some_and(|text| text.contains("albedo") && text.contains("light_count")));
+        let error = AovOutput::new(&("colour".into(), "a.exr".into())).err().map(|error| error.to_string());
+        assert!(error.is_some_and(|text| text.contains("colour") && text.contains("light_count")));
         for (name, _) in VARIABLES {
             let output = AovOutput::new(&(name.into(), "a.png".into()));
             let numbers = ["position", "direct", "indirect"].contains(&name);

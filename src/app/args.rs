@@ -122,9 +122,9 @@ pub(super) struct RenderOptions {
     /// Report as JSON; its pairs.area_saved counts what the clusters' masks spared of area lights
     #[arg(long, value_name = "FILE.json")]
     pub(super) report: Option<PathBuf>,
-    /// Output variable, several times: position, normal, material (-1: a light that is seen), light_count, cluster,
-    /// slice, pair_ratio (lights evaluated over those within range), folded (lights beyond the cap of the list), light_error
-    /// (estimated, relative), direct or indirect; numbers in .exr or .pfm, colours in .png
+    /// Output variable, several times: position, normal, material (-1: a light that is seen), albedo, roughness
+    /// (alpha), depth (metres), light_count, cluster, slice, pair_ratio (lights evaluated over those within range), folded (lights beyond the cap of the list), light_error
+    /// (estimated, relative), ltc_bound (what an area light's closed form may be off by), direct or indirect; numbers in .exr or .pfm, colours in .png
     #[arg(long, value_name = "NAME=FILE", value_parser = parse_pair)]
     pub(super) aov: Vec<(String, String)>,
 }

@@ -143,6 +143,12 @@ impl Device {
         self.info.kind == "cpu"
     }
 
+    /// Texels along a side of the largest texture.
+    #[must_use]
+    pub fn largest_image(&self) -> u32 {
+        self.limits.max_image_dimension2_d
+    }
+
     /// Largest number of device bytes in use at once so far.
     #[must_use]
     pub fn peak_memory(&self) -> u64 {

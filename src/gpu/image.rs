@@ -231,6 +231,31 @@ impl Commands {
         self.transition_raw((image.raw, image.everything()), before, after);
     }
 
+    /// Copies the pixels of columns `columns` between two images of one size and format, in uses [`Use::TransferRead`] and
+    /// [`Use::TransferWrite`].
+    pub fn copy_columns(&mut self, from: &Image, to: &Image, columns: std::ops::Range<u32>) {
+        if columns.is_empty() {
+            return;
+        }
+        let layers = vk::ImageSubresourceLayers {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            mip_level: 0,
+            base_array_layer: 0,
+            layer_count: 1,
+        };
+        let offset = vk::Offset3D { x: columns.start as i32, y: 0, z: 0 };
+        let region = vk::ImageCopy {
+            src_subresource: layers,
+            src_offset: offset,
+            dst_subresource: layers,
+            dst_offset: offset,
+            extent: vk::Extent3D { width: columns.end - columns.start, height: from.size[1], depth: 1 },
+        };
+        let [before, after] = [Use::TransferRead, Use::TransferWrite].map(Use::layout);
+        // SAFETY: both images are alive and in these layouts, and have the columns.
+        unsafe { self.device.raw.cmd_copy_image(self.raw, from.raw, before, to.raw, after, &[region]) };
+    }
+
     /// Clears a colour image, in use [`Use::TransferWrite`], to 0.
     pub fn clear(&mut self, image: &Image) {
         let layout = Use::TransferWrite.layout();

@@ -33,7 +33,7 @@ pub use descriptor::{DescriptorSet, DescriptorSets, PipelineLayout, SetLayout};
 pub use device::{Device, DeviceInfo, Options};
 pub use image::{Image, ImageDescription};
 pub use pipeline::{
-    Blend, ComputePipeline, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, Specialization,
+    Blend, ComputePipeline, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, Specialization, Vertices,
 };
 pub use query::Timestamps;
 pub use render_pass::{Attachment, Framebuffer, Outside, RenderPass, Subpass};

@@ -16,7 +16,7 @@ const LDR: u32 = 1;
 const DEPTH: u32 = 2;
 
 /// What the forward pass has to do for a scene; nothing else is compiled or recorded.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work {
     /// Point lights evaluated one by one.
     pub unranged: bool,
@@ -81,6 +81,16 @@ impl Forward {
             further,
             framebuffer,
         })
+    }
+
+    /// Changes the tone curve.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn set_tonemap(&mut self, inputs: &PassInputs<'_>, tonemap: Tonemap) -> Result<()> {
+        let last = if self.indirect.is_some() { 2 } else { 1 };
+        self.present = Present::new(inputs, tonemap, (&self.first, last))?;
+        Ok(())
     }
 
     /// Adds one sample's radiance; the picture is the sum times `scale`. Timestamp `stamp` and those behind it follow

@@ -8,7 +8,7 @@ use super::{PassInputs, View, draw_scene};
 use crate::error::Result;
 use crate::gpu::{
     Attachment, Blend, Commands, DepthTest, Framebuffer, GraphicsDescription, GraphicsPipeline, Outside,
-    RenderPass, Subpass, Use, shaders,
+    RenderPass, Subpass, Use, Vertices, shaders,
 };
 use crate::gpu_scene::Variant;
 use crate::targets::{DEPTH_FORMAT, SURFACE_FORMAT, Targets};
@@ -45,7 +45,7 @@ impl Prepass {
                     vertex: shaders::PREPASS_SURFACE_VERT,
                     fragment: fragment(variant),
                     specialization: &variant.specialization,
-                    vertices: true,
+                    vertices: Vertices::Surface,
                     depth: DepthTest::WriteNearest,
                     blend: surface.then_some(Blend::Replace),
                     cull: variant.cull(),

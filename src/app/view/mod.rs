@@ -4,6 +4,7 @@
 //! scene's samples once it rests.
 
 mod fly;
+mod overlay;
 mod stage;
 
 use super::args::ViewOptions;
@@ -12,12 +13,13 @@ use crate::error::{Error, Result};
 use crate::gpu::Shown;
 use crate::scene::Scene;
 use fly::Fly;
-use stage::Stage;
+use overlay::Change;
+use stage::{Stage, View};
 use std::panic;
 use std::time::Instant;
 use winit::application::ApplicationHandler;
 use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, EventLoop};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::{KeyCode, PhysicalKey};
 use winit::window::WindowId;
 
@@ -27,15 +29,17 @@ const PIXELS_PER_NOTCH: f64 = 40.0;
 pub(super) fn run(options: &ViewOptions) -> Result<()> {
     let scene = load_scene(&options.scene)?;
     let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
-    open(options, &scene, Fly::new(camera)).map_err(advise)
+    let fly = Fly::new(camera);
+    open(options, scene, fly).map_err(advise)
 }
 
-fn open(options: &ViewOptions, scene: &Scene, fly: Fly) -> Result<()> {
+fn open(options: &ViewOptions, scene: Scene, fly: Fly) -> Result<()> {
     let event_loop = event_loop()?;
     let mut viewer = Viewer {
         options,
         scene,
         fly,
+        stale: true,
         stage: None,
         start: Instant::now(),
         pointer: None,
@@ -95,8 +99,10 @@ fn advise(error: Error) -> Error {
 
 struct Viewer<'a> {
     options: &'a ViewOptions,
-    scene: &'a Scene,
+    scene: Scene,
     fly: Fly,
+    /// The picture on screen is not of this moment.
+    stale: bool,
     start: Instant,
     stage: Option<Stage>,
     /// Where the pointer was last, in pixels.
@@ -108,7 +114,9 @@ struct Viewer<'a> {
 }
 
 impl Viewer<'_> {
-    fn redraw(&self) {
+    /// Has the picture rendered anew.
+    fn redraw(&mut self) {
+        self.stale = true;
         if let Some(stage) = &self.stage {
             stage.window.request_redraw();
         }
@@ -122,15 +130,24 @@ impl Viewer<'_> {
         let moves = self.fly.step(now) || !self.scene.motions.is_empty();
         let time = (now - self.start).as_secs_f64();
         let samples = if moves { 1 } else { self.scene.render.samples };
-        // Without an area nothing moves, until the window has a size again.
-        let Some(shown) = stage.draw(self.scene, self.fly.camera(), time, samples)? else {
-            return Ok(());
-        };
+        let view = View { camera: self.fly.camera(), time, samples };
+        if self.stale || moves || self.remaining.is_some() || !stage.has_picture() {
+            // Without an area nothing moves, until the window has a size again.
+            if !stage.render(&self.scene, view)? {
+                return Ok(());
+            }
+            self.stale = false;
+        }
+        let (shown, change) = stage.show(&mut self.scene)?;
+        if change > Change::Nothing {
+            stage.change(self.options, &self.scene, self.fly.camera(), change)?;
+            self.stale = true;
+        }
         let on_screen = matches!(shown, Shown::Yes | Shown::Misfit);
         if on_screen && let Some(remaining) = &mut self.remaining {
             *remaining = remaining.saturating_sub(1);
         }
-        if moves || !on_screen || self.remaining.is_some() {
+        if self.stale || moves || !on_screen || self.remaining.is_some() {
             stage.window.request_redraw();
         }
         Ok(())
@@ -139,6 +156,8 @@ impl Viewer<'_> {
     fn key(&mut self, event_loop: &ActiveEventLoop, code: KeyCode, pressed: bool) {
         if code == KeyCode::Escape && pressed {
             event_loop.exit();
+        } else if pressed && self.stage.as_mut().is_some_and(|stage| stage.key(code)) {
+            // The overlay alone is drawn anew.
         } else if self.fly.key(code, pressed) {
             self.redraw();
         }
@@ -169,13 +188,26 @@ impl ApplicationHandler for Viewer<'_> {
         if self.stage.is_some() {
             return;
         }
-        let opened = Stage::open(event_loop, self.options, self.scene);
+        let opened = Stage::open(event_loop, self.options, &self.scene);
         let result = opened.map(|stage| self.stage = Some(stage));
         self.settle(event_loop, result);
         self.redraw();
     }
 
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        let due = self.stage.as_ref().and_then(Stage::due);
+        event_loop.set_control_flow(due.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+        if due.is_some_and(|due| due <= Instant::now())
+            && let Some(stage) = &self.stage
+        {
+            stage.window.request_redraw();
+        }
+    }
+
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        if self.stage.as_mut().is_some_and(|stage| stage.overlay_takes(&event)) {
+            return;
+        }
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::RedrawRequested if self.outcome.is_ok() && !event_loop.exiting() => {

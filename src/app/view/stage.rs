@@ -1,15 +1,20 @@
 //! The open window: device, scene and frame, and the picture's way into the window.
 
+use super::overlay::{Change, Content, Figures, Gui, History};
 use crate::app::args::ViewOptions;
 use crate::app::{in_scene, report, warn_of_missing_shadows};
 use crate::error::{Error, Result};
 use crate::frame::{Frame, FrameInputs, FrameSettings};
 use crate::gpu::{Device, Options, Shown, Swapchain};
 use crate::gpu_scene::GpuScene;
+use crate::passes::overlay::Ground;
 use crate::scene::{Camera, Scene};
 use std::sync::Arc;
+use std::time::Instant;
 use winit::dpi::PhysicalSize;
+use winit::event::WindowEvent;
 use winit::event_loop::ActiveEventLoop;
+use winit::keyboard::KeyCode;
 use winit::window::Window;
 
 /// Everything that lives as long as the window.
@@ -20,7 +25,19 @@ pub(super) struct Stage {
     scene: Arc<GpuScene>,
     pub(super) device: Arc<Device>,
     pub(super) window: Arc<Window>,
+    gui: Gui,
+    figures: Figures,
+    history: History,
     warned: bool,
+}
+
+/// What a picture is of.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    pub(super) camera: &'a Camera,
+    /// Seconds.
+    pub(super) time: f64,
+    pub(super) samples: u32,
 }
 
 impl Stage {
@@ -43,7 +60,17 @@ impl Stage {
             Device::open_for_window(&asked, &window, event_loop.owned_display_handle())?;
         let gpu_scene = Arc::new(in_scene(&options.scene, GpuScene::new(&device, scene))?);
         warn_of_missing_shadows(scene);
-        Ok(Self { frame: None, swapchain, scene: gpu_scene, device, window, warned: false })
+        Ok(Self {
+            frame: None,
+            swapchain,
+            scene: gpu_scene,
+            device,
+            window,
+            gui: Gui::default(),
+            figures: Figures::default(),
+            history: History::default(),
+            warned: false,
+        })
     }
 
     /// Has the targets made anew before the next picture.
@@ -51,46 +78,112 @@ impl Stage {
         self.frame = None;
     }
 
-    /// Renders a picture and shows it; `None` where the window has no area.
-    pub(super) fn draw(
-        &mut self,
-        scene: &Scene,
-        camera: &Camera,
-        time: f64,
-        samples: u32,
-    ) -> Result<Option<Shown>> {
+    /// Whether there is a picture to show.
+    pub(super) fn has_picture(&self) -> bool {
+        self.frame.is_some()
+    }
+
+    /// Renders a picture; `false` where the window has no area.
+    pub(super) fn render(&mut self, scene: &Scene, view: View<'_>) -> Result<bool> {
         if self.frame.is_none() {
-            self.frame = self.make_frame(scene, camera)?;
+            self.frame = self.make_frame(scene, view.camera)?;
         }
         let Some(frame) = &mut self.frame else {
-            return Ok(None);
+            return Ok(false);
         };
-        frame.render(&FrameInputs {
-            camera,
-            time,
-            samples,
+        let timings = frame.render(&FrameInputs {
+            camera: view.camera,
+            time: view.time,
+            samples: view.samples,
             exposure: scene.render.exposure,
             split: false,
             progress: indicatif::ProgressBar::hidden(),
         })?;
+        self.history.add(&timings, view.samples);
+        if self.gui.panels {
+            let samples = [view.samples, scene.render.samples];
+            self.figures = Figures::new((&self.device, &self.scene, frame), samples)?;
+        }
         if !self.warned && frame.counters().overflowed > 0 {
             report::warn_of_overflow(&frame.counters(), scene.render.max_lights_per_cluster);
             self.warned = true;
         }
+        Ok(true)
+    }
+
+    /// Shows the picture, with the overlay over it, and says what the user changed there.
+    pub(super) fn show(&mut self, scene: &mut Scene) -> Result<(Shown, Change)> {
+        let Some(frame) = &self.frame else {
+            return Ok((Shown::OutOfDate, Change::Nothing));
+        };
+        let (mut picture, mut change) = (frame.picture(), Change::Nothing);
+        if self.gui.is_shown() {
+            let ground = Ground { picture, beside: None };
+            let mut content =
+                Content { figures: &self.figures, history: &self.history, render: &mut scene.render };
+            (picture, change) = self.gui.draw((&self.device, &self.window), &ground, &mut content)?;
+        }
         self.window.pre_present_notify();
-        let shown = self.swapchain.show(frame.picture())?;
+        let shown = self.swapchain.show(picture)?;
         if matches!(shown, Shown::Misfit | Shown::OutOfDate) {
             self.outdate();
         }
-        Ok(Some(shown))
+        Ok((shown, change))
+    }
+
+    /// Makes anew what a change asks for.
+    pub(super) fn change(
+        &mut self,
+        options: &ViewOptions,
+        scene: &Scene,
+        camera: &Camera,
+        change: Change,
+    ) -> Result<()> {
+        if change == Change::Scene {
+            self.scene = Arc::new(in_scene(&options.scene, GpuScene::new(&self.device, scene))?);
+            self.frame = None;
+        }
+        let settings = self.settings(scene, camera);
+        match &mut self.frame {
+            Some(frame) if change == Change::Frame => frame.retune(settings),
+            _ => Ok(()),
+        }
+    }
+
+    fn settings(&self, scene: &Scene, camera: &Camera) -> FrameSettings {
+        FrameSettings { size: self.swapchain.size(), ..FrameSettings::new(&scene.render, camera) }
+    }
+
+    /// Whether the key is the overlay's.
+    pub(super) fn key(&mut self, code: KeyCode) -> bool {
+        let shown = match code {
+            KeyCode::KeyO => &mut self.gui.panels,
+            KeyCode::Slash | KeyCode::F1 => &mut self.gui.keys,
+            _ => return false,
+        };
+        *shown = !*shown;
+        self.window.request_redraw();
+        true
+    }
+
+    /// Whether an event is the overlay's alone.
+    pub(super) fn overlay_takes(&mut self, event: &WindowEvent) -> bool {
+        let taken = self.gui.event(&self.window, event);
+        if taken.redraw {
+            self.window.request_redraw();
+        }
+        taken.whole
+    }
+
+    /// When the overlay wants to be drawn again of itself.
+    pub(super) fn due(&self) -> Option<Instant> {
+        self.gui.due()
     }
 
     fn make_frame(&mut self, scene: &Scene, camera: &Camera) -> Result<Option<Frame>> {
         if !self.swapchain.resize(self.window.inner_size().into())? {
             return Ok(None);
         }
-        let settings =
-            FrameSettings { size: self.swapchain.size(), ..FrameSettings::new(&scene.render, camera) };
-        Frame::new(&self.device, &self.scene, settings).map(Some)
+        Frame::new(&self.device, &self.scene, self.settings(scene, camera)).map(Some)
     }
 }
