@@ -27,12 +27,21 @@ pub(super) enum Command {
   amas render scene.toml --set samples=16 --aov normal=normal.exr -o picture.png")]
     Render(RenderOptions),
     /// Show a scene in a window and fly through it
-    #[command(after_help = "Keys:
-  W A S D     forward, left, backward, right (by place on the keyboard)
+    #[command(after_help = "Keys, letters by their place on the keyboard:
+  W A S D     forward, left, backward, right
   Q E         down, up
-  mouse drag  look around
-  wheel       fly faster or slower
-  Esc         close
+  drag        look around
+  right drag  turn around the point where the drag began; also Ctrl + drag
+  wheel       fly faster or slower; two fingers on a touchpad do, too
+  pinch       nearer to and farther from what is looked at
+  1 … 9       the scene's cameras, in the file's order
+  P           walk along the camera's path, or stop
+  R           reset the camera
+  C           print the camera as TOML, and copy it to the clipboard
+  V           wait for the display's refresh, or not
+  O           panels: times, counts, settings
+  ?           the keys; also F1
+  Esc         stop loading; else close
 
 Example:
   amas view scene.toml --size 1280x720 --camera main")]
@@ -138,9 +147,12 @@ pub(super) struct ViewOptions {
     /// Camera to start from, by name [default: the first]
     #[arg(long, value_name = "NAME")]
     pub(super) camera: Option<String>,
-    /// Close after N pictures, rendered one after the other
+    /// Close after N pictures, a sample each, rendered one after the other
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) frames: Option<u32>,
+    /// Do not wait for the display's refresh
+    #[arg(long)]
+    pub(super) no_vsync: bool,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -1,6 +1,6 @@
 //! What can be read from a frame once it is rendered.
 
-use super::{Frame, tiles, tiles_of};
+use super::{Frame, FrameSettings, tiles, tiles_of};
 use crate::error::Result;
 use crate::gpu::{Image, Use};
 use crate::image::HdrImage;
@@ -11,6 +11,7 @@ use crate::passes::floors::{FloorPass, Floors};
 use crate::passes::pairs::{PairCount, PairPass};
 use crate::shared::Counters;
 use crate::targets::Targets;
+use std::sync::Arc;
 
 impl Frame {
     /// The scene-linear picture.
@@ -33,8 +34,20 @@ impl Frame {
 
     /// The display-referred picture on the device, in use [`Use::TransferRead`].
     #[must_use]
-    pub fn picture(&self) -> &Image {
+    pub fn picture(&self) -> &Arc<Image> {
         &self.targets.ldr
+    }
+
+    /// Samples that the picture has.
+    #[must_use]
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// What the frame was made for.
+    #[must_use]
+    pub fn settings(&self) -> &FrameSettings {
+        &self.settings
     }
 
     /// One quantity of the surface last rendered, without jitter if the picture had one sample.

@@ -47,6 +47,7 @@ pub struct Device {
     pub(super) physical: vk::PhysicalDevice,
     info: DeviceInfo,
     queue: vk::Queue,
+    pub(super) family: u32,
     pool: vk::CommandPool,
     // Queue and pool are used by one thread at a time.
     turn: Mutex<()>,
@@ -107,11 +108,7 @@ impl Device {
             unsafe { instance.raw.create_device(chosen.physical, &info, None) }.called("vkCreateDevice")?;
         // SAFETY: queue 0 of the family was asked for above.
         let queue = unsafe { raw.get_device_queue(chosen.family, 0) };
-        let pool_info = vk::CommandPoolCreateInfo::default()
-            .queue_family_index(chosen.family)
-            .flags(vk::CommandPoolCreateFlags::TRANSIENT);
-        // SAFETY: as above.
-        let pool = unsafe { raw.create_command_pool(&pool_info, None) }.called("vkCreateCommandPool")?;
+        let pool = command_pool(&raw, chosen.family)?;
         let debug = instance.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw));
         let memory = Memory::new(&instance.raw, &raw, chosen.physical)?;
         Ok(Self {
@@ -124,6 +121,7 @@ impl Device {
             physical: chosen.physical,
             info: chosen.info,
             queue,
+            family: chosen.family,
             pool,
             turn: Mutex::new(()),
             instance,
@@ -211,6 +209,18 @@ impl Device {
         call(self.queue)
     }
 
+    /// A pool whose commands are recorded again and again.
+    #[cfg(feature = "viewer")]
+    pub(super) fn command_pool(&self) -> Result<vk::CommandPool> {
+        command_pool(&self.raw, self.family)
+    }
+
+    #[cfg(feature = "viewer")]
+    pub(super) fn semaphore(&self) -> Result<vk::Semaphore, vk::Result> {
+        // SAFETY: the device is alive.
+        unsafe { self.raw.create_semaphore(&vk::SemaphoreCreateInfo::default(), None) }
+    }
+
     #[cfg(feature = "viewer")]
     pub(super) fn swapchain_loader(&self) -> ash::khr::swapchain::Device {
         ash::khr::swapchain::Device::new(&self.instance.raw, &self.raw)
@@ -241,6 +251,14 @@ impl Device {
         // SAFETY: the handle is alive. A name that cannot be set is no reason to stop.
         let _ = unsafe { debug.set_debug_utils_object_name(&info) };
     }
+}
+
+fn command_pool(raw: &ash::Device, family: u32) -> Result<vk::CommandPool> {
+    let info = vk::CommandPoolCreateInfo::default()
+        .queue_family_index(family)
+        .flags(vk::CommandPoolCreateFlags::TRANSIENT);
+    // SAFETY: the device is alive, and was made with a queue of the family.
+    unsafe { raw.create_command_pool(&info, None) }.called("vkCreateCommandPool")
 }
 
 impl Drop for Device {

@@ -159,11 +159,33 @@ impl Image {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn fetch<T: Pod>(&self, before: Use, after: Use) -> Result<Vec<T>> {
         let texels = self.size[0] as usize * self.size[1] as usize * self.layers as usize;
+        self.fetch_region(self.region(0, self.size[1], 0), texels, before, after)
+    }
+
+    /// As [`Image::fetch`], one texel of the first layer.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn fetch_texel<T: Pod>(&self, at: [u32; 2], before: Use, after: Use) -> Result<T> {
+        let [x, y] = [0, 1].map(|axis| at[axis].min(self.size[axis] - 1) as i32);
+        let mut region = self.region(0, 1, 0);
+        region.image_offset = vk::Offset3D { x, y, z: 0 };
+        region.image_extent.width = 1;
+        region.image_subresource.layer_count = 1;
+        self.fetch_region(region, 1, before, after).map(|texels| texels[0])
+    }
+
+    fn fetch_region<T: Pod>(
+        &self,
+        region: vk::BufferImageCopy,
+        texels: usize,
+        before: Use,
+        after: Use,
+    ) -> Result<Vec<T>> {
         let staging = Buffer::<T>::new(&self.device, "readback", BufferUse::Readback, texels)?;
         self.device.run("read image", |cmd| {
             cmd.transition(self, before, Use::TransferRead);
-            let region = self.region(0, self.size[1], 0);
-            // SAFETY: the staging buffer holds every texel of the level; `T` is as large as the format's texel.
+            // SAFETY: the staging buffer holds every texel of the region; `T` is as large as the format's texel.
             unsafe {
                 self.device.raw.cmd_copy_image_to_buffer(
                     cmd.raw,
@@ -213,7 +235,9 @@ fn require_room(device: &Device, name: &str, info: &vk::ImageCreateInfo<'_>) -> 
 
 fn usage(used: Use) -> vk::ImageUsageFlags {
     match used {
-        Use::Nothing | Use::HostRead | Use::IndirectRead | Use::Present => vk::ImageUsageFlags::empty(),
+        Use::Nothing | Use::HostRead | Use::IndirectRead | Use::Acquired | Use::Present => {
+            vk::ImageUsageFlags::empty()
+        }
         Use::TransferWrite => vk::ImageUsageFlags::TRANSFER_DST,
         Use::TransferRead => vk::ImageUsageFlags::TRANSFER_SRC,
         Use::ComputeWrite | Use::StorageRead => vk::ImageUsageFlags::STORAGE,

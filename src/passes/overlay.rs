@@ -79,7 +79,7 @@ pub struct Overlay {
 
 struct Canvas {
     framebuffer: Framebuffer,
-    image: Image,
+    image: Arc<Image>,
 }
 
 struct Texture {
@@ -163,22 +163,23 @@ impl Overlay {
         self.textures.remove(&number);
     }
 
-    /// Draws over a picture; the result, in use [`Use::TransferRead`], stays until the next.
+    /// Draws over a picture; the result, in use [`Use::TransferRead`], stays as it is until the next.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn draw(&mut self, ground: &Ground<'_>, drawing: &Drawing) -> Result<&Image> {
+    pub fn draw(&mut self, ground: &Ground<'_>, drawing: &Drawing) -> Result<Arc<Image>> {
         let size = ground.picture.size();
-        let canvas = match self.canvas.take().filter(|canvas| canvas.image.size() == size) {
-            Some(canvas) => canvas,
-            None => Canvas::new(&self.device, &self.pass, size)?,
+        // The window may still copy what was drawn before.
+        let (canvas, before) = match self.canvas.take().filter(|canvas| canvas.image.size() == size) {
+            Some(canvas) => (canvas, Use::TransferRead),
+            None => (Canvas::new(&self.device, &self.pass, size)?, Use::Nothing),
         };
         grow(&self.device, &mut self.corners, drawing.corners.len())?;
         grow(&self.device, &mut self.triangles, drawing.triangles.len())?;
         self.corners.write(&drawing.corners)?;
         self.triangles.write(&drawing.triangles)?;
         self.device.run("overlay", |cmd| {
-            cmd.transition(&canvas.image, Use::Nothing, Use::TransferWrite);
+            cmd.transition(&canvas.image, before, Use::TransferWrite);
             let first = ground.beside.map_or(size[0], |(_, column)| column.min(size[0]));
             cmd.copy_columns(ground.picture, &canvas.image, 0..first);
             if let Some((beside, _)) = ground.beside {
@@ -189,7 +190,7 @@ impl Overlay {
             cmd.end_pass();
             Ok(())
         })?;
-        Ok(&self.canvas.insert(canvas).image)
+        Ok(self.canvas.insert(canvas).image.clone())
     }
 
     fn record(&self, cmd: &mut Commands, size: [u32; 2], drawing: &Drawing) {
@@ -218,7 +219,7 @@ impl Canvas {
                 uses: &[Use::TransferWrite, Use::ColorWrite, Use::TransferRead],
             },
         )?;
-        Ok(Self { framebuffer: Framebuffer::new(device, pass, &[&image])?, image })
+        Ok(Self { framebuffer: Framebuffer::new(device, pass, &[&image])?, image: Arc::new(image) })
     }
 }
 

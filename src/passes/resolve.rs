@@ -64,7 +64,6 @@ impl Resolve {
         let materials = material_records(device, &scene.records)?;
         let set = layout.allocate(shared::resolve::SET, 1)?;
         set.get(0).image(shared::resolve::RESOLVE_MATERIALS, &materials, Use::Texture);
-        set.get(0).image(shared::resolve::RESOLVE_HDR, &targets.hdr, Use::ComputeWrite);
         let resolve = Self {
             gather: ComputePipeline::new(device, &layout, shaders::RESOLVE_GATHER_COMP, &base)?,
             many: many.collect::<Result<_>>()?,
@@ -73,7 +72,13 @@ impl Resolve {
             _materials: materials,
         };
         resolve.set.get(0).buffer(shared::resolve::RESOLVE_WORK, &resolve.work);
+        resolve.resize(targets);
         Ok(resolve)
+    }
+
+    /// Binds another picture.
+    pub fn resize(&self, targets: &Targets) {
+        self.set.get(0).image(shared::resolve::RESOLVE_HDR, &targets.hdr, Use::ComputeWrite);
     }
 
     /// Makes room for the work of more clusters.

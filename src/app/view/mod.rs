@@ -1,122 +1,105 @@
 //! `amas view`: the same frame in a window.
 //!
-//! A picture is rendered when there is something new to see: with one sample a pixel while the camera moves, with the
-//! scene's samples once it rests.
+//! The window's thread handles input and renders a sample of the picture at a time, when there is something new to see:
+//! one through the pixels' centres while the view moves, the scene's samples, one after the other, once it rests. Files
+//! are read, scenes uploaded and pipelines compiled on other threads, whose results arrive as [`Event`]s.
 
+mod display;
 mod fly;
+mod input;
+mod loading;
 mod overlay;
+mod picture;
+mod pilot;
+mod signals;
 mod stage;
+mod waiting;
 
 use super::args::ViewOptions;
-use super::{camera, in_scene, load_scene};
-use crate::error::{Error, Result};
-use crate::gpu::Shown;
-use crate::scene::Scene;
-use fly::Fly;
-use overlay::Change;
-use stage::{Stage, View};
-use std::panic;
-use std::time::Instant;
+use super::{in_scene, report};
+use crate::error::Result;
+use input::Pointer;
+use loading::{Loading, Progress};
+use overlay::{Change, Gui};
+use picture::Picture;
+use pilot::Pilot;
+use stage::Stage;
+use std::time::{Duration, Instant};
+use waiting::Waiting;
 use winit::application::ApplicationHandler;
-use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
-use winit::keyboard::{KeyCode, PhysicalKey};
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::WindowId;
 
-/// Pixels that a touchpad scrolls for a notch of a wheel.
-const PIXELS_PER_NOTCH: f64 = 40.0;
+/// Time between two looks at how far loading is.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// What other threads tell the window's.
+enum Event {
+    /// A signal asks to close.
+    Quit,
+    /// A job of that ticket has come to something.
+    Loaded(u64, Progress),
+}
 
 pub(super) fn run(options: &ViewOptions) -> Result<()> {
-    let scene = load_scene(&options.scene)?;
-    let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
-    let fly = Fly::new(camera);
-    open(options, scene, fly).map_err(advise)
+    // What is wrong with the scene file itself is said before a window opens.
+    let settings = options.scene.origin().settings(&options.scene.overrides())?;
+    open(options, settings.size).map_err(display::advise)
 }
 
-fn open(options: &ViewOptions, scene: Scene, fly: Fly) -> Result<()> {
-    let event_loop = event_loop()?;
+fn open(options: &ViewOptions, size: [u32; 2]) -> Result<()> {
+    let event_loop: EventLoop<Event> = display::connect()?;
+    let proxy = event_loop.create_proxy();
+    signals::listen(proxy.clone())?;
+    let loading = Loading::start(options.scene.clone(), options.camera.clone(), 0, &proxy);
     let mut viewer = Viewer {
         options,
-        scene,
-        fly,
-        stale: true,
+        size,
+        proxy,
         stage: None,
+        picture: None,
+        pilot: None,
+        waiting: Waiting::default(),
+        loading: Some(loading),
+        pointer: Pointer::default(),
+        gui: Gui::default(),
+        hidden: false,
+        warned: false,
         start: Instant::now(),
-        pointer: None,
-        dragging: false,
         remaining: options.frames,
+        closing: false,
         outcome: Ok(()),
     };
-    event_loop.run_app(&mut viewer).map_err(|error| no_display(&error.to_string()))?;
-    let device = viewer.stage.take().map(|stage| stage.device.clone());
-    viewer.outcome?;
-    device.map_or(Ok(()), |device| device.require_silence())
-}
-
-/// Connects to the display.
-fn event_loop() -> Result<EventLoop<()>> {
-    // winit panics where a library or an extension of the display is missing; its message belongs into the error.
-    let hook = panic::take_hook();
-    panic::set_hook(Box::new(|_| {}));
-    let made = panic::catch_unwind(EventLoop::new);
-    panic::set_hook(hook);
-    match made {
-        Ok(made) => made.map_err(|error| no_display(&error.to_string())),
-        Err(payload) => Err(no_display(message(&*payload))),
-    }
-}
-
-fn message(payload: &dyn std::any::Any) -> &str {
-    payload
-        .downcast_ref::<String>()
-        .map(String::as_str)
-        .or_else(|| payload.downcast_ref::<&str>().copied())
-        .unwrap_or("no reason given")
-}
-
-fn no_display(reason: &str) -> Error {
-    // winit's place in its own source says nothing to a user.
-    let reason = reason
-        .strip_prefix("os error at ")
-        .and_then(|rest| rest.split_once(": "))
-        .map_or(reason, |(_, reason)| reason);
-    Error::NoDevice {
-        cause: format!("there is no display to open a window on ({})", reason.trim_end_matches('.')),
-        remedy: "start it from a desktop session, and run ./setup for the display's libraries".into(),
-    }
-}
-
-/// Whatever keeps the window shut, the same picture can be had without it.
-fn advise(error: Error) -> Error {
-    match error {
-        Error::NoDevice { cause, remedy } => Error::NoDevice {
-            cause,
-            remedy: format!("{remedy}; or use `amas render`, which needs no window"),
-        },
-        other => other,
-    }
+    event_loop.run_app(&mut viewer).map_err(|error| display::missing(&error.to_string()))?;
+    viewer.close()
 }
 
 struct Viewer<'a> {
     options: &'a ViewOptions,
-    scene: Scene,
-    fly: Fly,
-    /// The picture on screen is not of this moment.
-    stale: bool,
-    start: Instant,
+    /// Of the window at first, pixels.
+    size: [u32; 2],
+    proxy: EventLoopProxy<Event>,
     stage: Option<Stage>,
-    /// Where the pointer was last, in pixels.
-    pointer: Option<[f64; 2]>,
-    dragging: bool,
+    /// `None` until the first scene is loaded.
+    picture: Option<Box<Picture>>,
+    pilot: Option<Pilot>,
+    waiting: Waiting,
+    loading: Option<Loading>,
+    pointer: Pointer,
+    gui: Gui,
+    /// Nothing of the window is on screen.
+    hidden: bool,
+    warned: bool,
+    start: Instant,
     /// Pictures to show before closing; `None`: until the user closes.
     remaining: Option<u32>,
+    closing: bool,
     outcome: Result<()>,
 }
 
 impl Viewer<'_> {
-    /// Has the picture rendered anew.
-    fn redraw(&mut self) {
-        self.stale = true;
+    fn redraw(&self) {
         if let Some(stage) = &self.stage {
             stage.window.request_redraw();
         }
@@ -126,117 +109,161 @@ impl Viewer<'_> {
         let Some(stage) = &mut self.stage else {
             return Ok(());
         };
+        // Without an area nothing moves, until the window has a size again.
+        let Some(size) = stage.fit()? else {
+            return Ok(());
+        };
+        let (Some(picture), Some(pilot)) = (&mut self.picture, &mut self.pilot) else {
+            let fraction = self.loading.as_ref().map_or(0.0, Loading::fraction);
+            return stage.show(self.waiting.image(&stage.device, size, fraction)?).map(|_| ());
+        };
         let now = Instant::now();
-        let moves = self.fly.step(now) || !self.scene.motions.is_empty();
-        let time = (now - self.start).as_secs_f64();
-        let samples = if moves { 1 } else { self.scene.render.samples };
-        let view = View { camera: self.fly.camera(), time, samples };
-        if self.stale || moves || self.remaining.is_some() || !stage.has_picture() {
-            // Without an area nothing moves, until the window has a size again.
-            if !stage.render(&self.scene, view)? {
-                return Ok(());
-            }
-            self.stale = false;
+        let moves = pilot.step(now) || picture.gpu.moves();
+        picture.fit(size, pilot.camera())?;
+        if self.remaining.is_some() && picture.is_complete() {
+            picture.restart();
         }
-        let (shown, change) = stage.show(&mut self.scene)?;
-        if change > Change::Nothing {
-            stage.change(self.options, &self.scene, self.fly.camera(), change)?;
-            self.stale = true;
-        }
-        let on_screen = matches!(shown, Shown::Yes | Shown::Misfit);
-        if on_screen && let Some(remaining) = &mut self.remaining {
+        let timings = picture.step(pilot.camera(), (now - self.start).as_secs_f64(), moves)?;
+        let (image, change) = self.gui.draw(stage, picture, timings)?;
+        let shown = stage.show(&image)?;
+        picture.change(change, pilot.camera())?;
+        if shown && let Some(remaining) = &mut self.remaining {
             *remaining = remaining.saturating_sub(1);
         }
-        if self.stale || moves || !on_screen || self.remaining.is_some() {
+        let counters = picture.frame.counters();
+        if !self.warned && counters.overflowed > 0 {
+            report::warn_of_overflow(&counters, picture.scene.render.max_lights_per_cluster);
+            self.warned = true;
+        }
+        if moves || !shown || change > Change::Nothing || !picture.is_complete() || self.remaining.is_some() {
             stage.window.request_redraw();
         }
         Ok(())
     }
 
-    fn key(&mut self, event_loop: &ActiveEventLoop, code: KeyCode, pressed: bool) {
-        if code == KeyCode::Escape && pressed {
-            event_loop.exit();
-        } else if pressed && self.stage.as_mut().is_some_and(|stage| stage.key(code)) {
-            // The overlay alone is drawn anew.
-        } else if self.fly.key(code, pressed) {
-            self.redraw();
+    fn progress(&mut self, ticket: u64, progress: Progress) -> Result<()> {
+        let Some(loading) = self.loading.as_mut().filter(|loading| loading.is(ticket)) else {
+            return Ok(());
+        };
+        match progress {
+            Progress::Read(scene) => {
+                let scene = scene?;
+                let home = loading.camera(&scene)?;
+                let Some(stage) = &self.stage else {
+                    return Ok(());
+                };
+                let size = stage.window.inner_size();
+                let size = [size.width.max(1), size.height.max(1)];
+                let camera = scene.cameras[home].clone();
+                loading.upload(&stage.device, scene, &camera, size);
+            }
+            Progress::Ready(picture) => {
+                let picture = picture?;
+                let home = loading.camera(&picture.scene)?;
+                self.pilot = Some(Pilot::new(&picture.scene.cameras, home, picture.diagonal()));
+                self.picture = Some(picture);
+                self.loading = None;
+                self.redraw();
+            }
         }
-    }
-
-    fn drag(&mut self, to: [f64; 2]) {
-        let from = self.pointer.replace(to);
-        if let (true, Some([x, y]), Some(stage)) = (self.dragging, from, &self.stage) {
-            let height = f64::from(stage.window.inner_size().height.max(1));
-            self.fly.turn((to[0] - x) / height, (to[1] - y) / height);
-            self.redraw();
-        }
+        Ok(())
     }
 
     /// Ends the loop where something failed.
     fn settle(&mut self, event_loop: &ActiveEventLoop, result: Result<()>) {
-        if result.is_err() {
+        if result.is_err() && self.outcome.is_ok() {
             self.outcome = result;
         }
-        if self.outcome.is_err() || self.remaining == Some(0) {
+        if self.closing || self.outcome.is_err() || self.remaining == Some(0) {
             event_loop.exit();
         }
     }
+
+    fn cancel_or_close(&mut self) {
+        // The first scene has no picture to go back to.
+        if self.picture.is_none() || self.loading.take().is_none() {
+            self.closing = true;
+        }
+    }
+
+    /// After the loop: how it went.
+    fn close(mut self) -> Result<()> {
+        // What uses the device goes first.
+        self.loading = None;
+        self.picture = None;
+        let device = self.stage.take().map(|stage| stage.device.clone());
+        self.outcome?;
+        device.map_or(Ok(()), |device| device.require_silence())
+    }
 }
 
-impl ApplicationHandler for Viewer<'_> {
+impl ApplicationHandler<Event> for Viewer<'_> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.stage.is_some() {
-            return;
+        if self.stage.is_none() {
+            let opened = Stage::open(event_loop, self.options, self.size);
+            let result = opened.map(|stage| self.stage = Some(stage));
+            self.settle(event_loop, result);
         }
-        let opened = Stage::open(event_loop, self.options, &self.scene);
-        let result = opened.map(|stage| self.stage = Some(stage));
-        self.settle(event_loop, result);
         self.redraw();
     }
 
-    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        let due = self.stage.as_ref().and_then(Stage::due);
-        event_loop.set_control_flow(due.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
-        if due.is_some_and(|due| due <= Instant::now())
-            && let Some(stage) = &self.stage
-        {
-            stage.window.request_redraw();
+    fn suspended(&mut self, _: &ActiveEventLoop) {
+        if let Some(stage) = &mut self.stage {
+            stage.suspend();
         }
     }
 
+    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
+        if matches!(cause, StartCause::ResumeTimeReached { .. }) {
+            self.redraw();
+        }
+    }
+
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Event) {
+        let result = match event {
+            Event::Quit => {
+                self.closing = true;
+                Ok(())
+            }
+            Event::Loaded(ticket, progress) => {
+                let result = self.progress(ticket, progress);
+                in_scene(&self.options.scene, result)
+            }
+        };
+        self.settle(event_loop, result);
+    }
+
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        if self.stage.as_mut().is_some_and(|stage| stage.overlay_takes(&event)) {
+        if self.outcome.is_err() || event_loop.exiting() {
             return;
         }
-        match event {
-            WindowEvent::CloseRequested => event_loop.exit(),
-            WindowEvent::RedrawRequested if self.outcome.is_ok() && !event_loop.exiting() => {
-                let result = self.draw();
-                self.settle(event_loop, result);
+        let result = match event {
+            WindowEvent::CloseRequested => {
+                self.closing = true;
+                Ok(())
             }
-            WindowEvent::Resized(_) => {
+            WindowEvent::RedrawRequested if self.hidden => Ok(()),
+            WindowEvent::RedrawRequested => self.draw(),
+            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
                 if let Some(stage) = &mut self.stage {
                     stage.outdate();
                 }
                 self.redraw();
+                Ok(())
             }
-            WindowEvent::KeyboardInput {
-                event: KeyEvent { physical_key: PhysicalKey::Code(code), state, .. },
-                ..
-            } => self.key(event_loop, code, state == ElementState::Pressed),
-            WindowEvent::Focused(false) => {
-                self.fly.release();
-                self.dragging = false;
+            WindowEvent::Occluded(hidden) => {
+                self.hidden = hidden;
+                self.redraw();
+                Ok(())
             }
-            WindowEvent::MouseInput { button: MouseButton::Left, state, .. } => {
-                self.dragging = state == ElementState::Pressed
-            }
-            WindowEvent::CursorMoved { position, .. } => self.drag(position.into()),
-            WindowEvent::MouseWheel { delta, .. } => self.fly.accelerate(match delta {
-                MouseScrollDelta::LineDelta(_, lines) => lines.into(),
-                MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_PER_NOTCH,
-            }),
-            _ => {}
-        }
+            event => self.input(event),
+        };
+        self.settle(event_loop, result);
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        let look = self.loading.as_ref().map(|_| Instant::now() + LOOK);
+        let next = look.into_iter().chain(self.gui.due()).min();
+        event_loop.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 }

@@ -17,6 +17,7 @@ const MOST_LIGHTS: usize = 1 << 20;
 /// Reads every `[[light]]` into the loader's scene.
 pub(in crate::scene) fn lights(loader: &mut Loader, root: &Table) -> Result<()> {
     for table in root.tables("light")? {
+        loader.advance()?;
         let kind = table.require("type", "\"point\"")?;
         match kind.string()? {
             "point" => group(loader, &table, vec![point(&table)?])?,

@@ -1,9 +1,8 @@
 //! What the last picture held: lights, clusters, lists, memory, samples and the estimated error.
 
+use crate::app::view::picture::Picture;
 use crate::error::Result;
-use crate::frame::Frame;
 use crate::gpu::Device;
-use crate::gpu_scene::GpuScene;
 use crate::shared::Counters;
 use egui::Ui;
 
@@ -11,7 +10,7 @@ const MEGABYTE: f64 = 1024.0 * 1024.0;
 
 /// Figures of a picture.
 #[derive(Clone, Debug, Default)]
-pub(in crate::app::view) struct Figures {
+pub(super) struct Figures {
     device: String,
     driver: String,
     size: [u32; 2],
@@ -27,22 +26,19 @@ pub(in crate::app::view) struct Figures {
 }
 
 impl Figures {
-    /// Of the picture last rendered; the error is estimated once it is complete.
-    pub(in crate::app::view) fn new(
-        (device, scene, frame): (&Device, &GpuScene, &Frame),
-        samples: [u32; 2],
-    ) -> Result<Self> {
-        let info = device.info();
+    /// Of the sample last rendered.
+    pub(super) fn new(device: &Device, picture: &Picture) -> Result<Self> {
+        let (info, frame) = (device.info(), &picture.frame);
         let counters = frame.counters();
         let folds = f64::from(f32::from_bits(counters.fold_error));
         Ok(Self {
             device: info.name.clone(),
             driver: info.driver.clone(),
-            size: frame.picture().size(),
+            size: frame.settings().size,
             grid: frame.grid(),
-            point_lights: scene.lights.lights.len(),
-            area_lights: scene.area.count,
-            samples,
+            point_lights: picture.gpu.lights.lights.len(),
+            area_lights: picture.gpu.area.count,
+            samples: [frame.samples(), picture.scene.render.samples],
             error: frame.light_error()? + folds,
             memory: device.peak_memory() as f64 / MEGABYTE,
             counters,

@@ -1,12 +1,12 @@
-//! What pictures cost: a rolling plot, stacked pass by pass, and bars of the last.
+//! What samples cost: a rolling plot, stacked pass by pass, and bars of the last.
 
 use super::PASS_COLORS;
 use crate::frame::Timings;
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Sense, Shape, Ui, pos2, vec2};
 use std::collections::VecDeque;
 
-/// Pictures in the plot.
-const PICTURES: usize = 160;
+/// Samples in the plot.
+const SAMPLES: usize = 160;
 /// Height of the plot and of a bar, points.
 const PLOT: f32 = 72.0;
 const BAR: f32 = 14.0;
@@ -14,28 +14,28 @@ const BAR: f32 = 14.0;
 /// Every pass that a frame may have, in frame order; their colours stay the same whatever the scene uses.
 const PASSES: [&str; 7] = ["lights", "prepass", "cluster", "resolve", "direct", "indirect", "present"];
 
-/// Milliseconds of the last pictures, by pass; and what is none of them.
+/// What the last samples cost.
 #[derive(Default)]
-pub(in crate::app::view) struct History(VecDeque<Cost>);
+pub(super) struct History(VecDeque<Cost>);
 
 struct Cost {
+    /// Milliseconds, pass by pass.
     passes: [f64; PASSES.len()],
-    /// A sample's wall time.
+    /// All of it, with what is of no pass.
     wall: f64,
 }
 
 impl History {
-    /// Takes note of a picture of so many samples; times are those of one.
-    pub(in crate::app::view) fn add(&mut self, timings: &Timings, samples: u32) {
+    /// Takes note of a sample.
+    pub(super) fn add(&mut self, timings: &Timings) {
         let mut passes = [0.0; PASSES.len()];
-        let share = 1.0 / f64::from(samples.max(1));
         for pass in &timings.passes {
             if let Some(index) = PASSES.iter().position(|&name| name == pass.name) {
-                passes[index] += share * pass.gpu_ms.or(pass.cpu_ms).unwrap_or(0.0);
+                passes[index] += pass.gpu_ms.or(pass.cpu_ms).unwrap_or(0.0);
             }
         }
-        self.0.push_back(Cost { passes, wall: share * timings.wall_ms });
-        if self.0.len() > PICTURES {
+        self.0.push_back(Cost { passes, wall: timings.wall_ms });
+        if self.0.len() > SAMPLES {
             self.0.pop_front();
         }
     }
@@ -58,8 +58,8 @@ impl History {
         let (response, painter) = ui.allocate_painter(vec2(ui.available_width(), PLOT), Sense::hover());
         let rect = response.rect;
         painter.rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
-        let at = |picture: usize, ms: f64| -> Pos2 {
-            let x = rect.right() - (self.0.len() - 1 - picture) as f32 / PICTURES as f32 * rect.width();
+        let at = |sample: usize, ms: f64| -> Pos2 {
+            let x = rect.right() - (self.0.len() - 1 - sample) as f32 / SAMPLES as f32 * rect.width();
             pos2(x, rect.bottom() - (ms / top).min(1.0) as f32 * rect.height())
         };
         let mut base = vec![0.0; self.0.len()];
@@ -75,14 +75,14 @@ impl History {
     }
 }
 
-/// The area between two curves, one point a picture.
+/// The area between two curves, one point a sample.
 fn band(lower: &[f64], upper: &[f64], at: impl Fn(usize, f64) -> Pos2, color: Color32) -> Mesh {
     let mut mesh = Mesh::default();
-    for picture in 0..lower.len() {
-        mesh.colored_vertex(at(picture, lower[picture]), color);
-        mesh.colored_vertex(at(picture, upper[picture]), color);
-        if picture > 0 {
-            let corner = 2 * picture as u32 - 2;
+    for sample in 0..lower.len() {
+        mesh.colored_vertex(at(sample, lower[sample]), color);
+        mesh.colored_vertex(at(sample, upper[sample]), color);
+        if sample > 0 {
+            let corner = 2 * sample as u32 - 2;
             mesh.add_triangle(corner, corner + 1, corner + 2);
             mesh.add_triangle(corner + 1, corner + 2, corner + 3);
         }
@@ -120,16 +120,16 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_of_many_samples_counts_as_one_of_them() {
+    fn device_time_counts_where_it_is_known() {
         let pass = |name, gpu_ms| PassTime { name, gpu_ms, cpu_ms: Some(9.0) };
         let passes = vec![pass("prepass", Some(4.0)), pass("indirect", None), pass("present", Some(1.0))];
         let mut history = History::default();
-        history.add(&Timings { passes, wall_ms: 40.0, cpu_ms: 70.0 }, 4);
+        history.add(&Timings { passes, wall_ms: 40.0, cpu_ms: 70.0 });
         let Cost { passes, wall } = &history.0[0];
-        assert_eq!((*wall, *passes), (10.0, [0.0, 1.0, 0.0, 0.0, 0.0, 2.25, 0.25]));
-        for _ in 0..2 * PICTURES {
-            history.add(&Timings { passes: vec![], wall_ms: 1.0, cpu_ms: 1.0 }, 1);
+        assert_eq!((*wall, *passes), (40.0, [0.0, 4.0, 0.0, 0.0, 0.0, 9.0, 1.0]));
+        for _ in 0..2 * SAMPLES {
+            history.add(&Timings { passes: vec![], wall_ms: 1.0, cpu_ms: 1.0 });
         }
-        assert_eq!(history.0.len(), PICTURES);
+        assert_eq!(history.0.len(), SAMPLES);
     }
 }

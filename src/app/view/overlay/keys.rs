@@ -2,15 +2,23 @@
 
 use egui::Context;
 
-/// Keys and what they do.
-pub(in crate::app::view) const KEYS: [(&str, &str); 7] = [
-    ("W A S D", "forward, left, backward, right (by place on the keyboard)"),
+/// Keys and what they do, in the words of the help.
+const KEYS: [(&str, &str); 15] = [
+    ("W A S D", "forward, left, backward, right"),
     ("Q E", "down, up"),
-    ("mouse drag", "look around"),
+    ("drag", "look around"),
+    ("right drag", "turn around the point where the drag began; also Ctrl + drag"),
     ("wheel", "fly faster or slower"),
+    ("pinch", "nearer to and farther from what is looked at"),
+    ("1 … 9", "the scene's cameras, in the file's order"),
+    ("P", "walk along the camera's path, or stop"),
+    ("R", "reset the camera"),
+    ("C", "print the camera as TOML, and copy it"),
+    ("V", "wait for the display's refresh, or not"),
     ("O", "panels: times, counts, settings"),
-    ("?", "these keys"),
-    ("Esc", "close"),
+    ("?", "these keys; also F1"),
+    ("Esc", "stop loading; else close"),
+    ("", "letters by their place on the keyboard"),
 ];
 
 pub(super) fn show(context: &Context, open: &mut bool) {

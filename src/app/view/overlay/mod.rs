@@ -9,19 +9,24 @@ mod keys;
 mod paint;
 mod settings;
 
-pub(super) use counts::Figures;
-pub(super) use history::History;
 pub(super) use settings::Change;
 
+use super::picture::Picture;
+use super::stage::Stage;
 use crate::error::Result;
-use crate::gpu::{Device, Image};
+use crate::frame::Timings;
+use crate::gpu::Image;
 use crate::passes::overlay::{Ground, Overlay};
 use crate::scene::RenderSettings;
-use egui::{Color32, Context, ScrollArea, Ui, ViewportId};
+use counts::Figures;
+use egui::style::ScrollStyle;
+use egui::{Color32, Context, FullOutput, ScrollArea, Ui, ViewportId};
+use history::History;
 use paint::Textures;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use winit::event::WindowEvent;
+use winit::event::{ElementState, WindowEvent};
+use winit::keyboard::KeyCode;
 use winit::window::Window;
 
 /// Colours of the passes in frame order: those of Okabe and Ito, which all eyes tell apart.
@@ -41,11 +46,14 @@ const WIDTH: f32 = 250.0;
 /// The overlay's state; what it draws with is made when it is first shown.
 #[derive(Default)]
 pub(super) struct Gui {
-    /// The panels of figures and settings.
-    pub(super) panels: bool,
-    /// The list of keys.
-    pub(super) keys: bool,
+    /// The panels of figures and settings are open.
+    panels: bool,
+    /// The list of keys is open.
+    keys: bool,
     tools: Option<Tools>,
+    history: History,
+    /// Of the last picture; `None` where nobody has asked.
+    figures: Option<Figures>,
     /// When egui wants to be drawn again though nothing happened.
     due: Option<Instant>,
 }
@@ -57,33 +65,39 @@ struct Tools {
     pass: Overlay,
 }
 
-/// What the panels show, and what they may change.
-pub(super) struct Content<'a> {
-    pub(super) figures: &'a Figures,
-    pub(super) history: &'a History,
-    pub(super) render: &'a mut RenderSettings,
-}
-
 impl Gui {
     /// Whether anything is to be drawn over the picture.
-    pub(super) fn is_shown(&self) -> bool {
+    fn is_shown(&self) -> bool {
         self.panels || self.keys
     }
 
-    /// Takes note of an event; whether it is the overlay's alone.
-    pub(super) fn event(&mut self, window: &Window, event: &WindowEvent) -> Taken {
-        if !self.is_shown() {
-            return Taken { whole: false, redraw: false };
-        }
-        let Some(tools) = &mut self.tools else {
-            return Taken { whole: false, redraw: false };
+    /// Opens or closes what a key stands for; whether it does.
+    pub(super) fn key(&mut self, code: KeyCode) -> bool {
+        let open = match code {
+            KeyCode::KeyO => &mut self.panels,
+            KeyCode::Slash | KeyCode::F1 => &mut self.keys,
+            _ => return false,
         };
-        // A redraw asked for by a redraw would never end.
-        if matches!(event, WindowEvent::RedrawRequested) {
-            return Taken { whole: false, redraw: false };
-        }
+        *open = !*open;
+        true
+    }
+
+    /// Whether an event is the overlay's alone.
+    pub(super) fn takes(&mut self, window: &Window, event: &WindowEvent) -> bool {
+        let Some(tools) = self.tools.as_mut().filter(|_| self.panels || self.keys) else {
+            return false;
+        };
         let response = tools.input.on_window_event(window, event);
-        Taken { whole: response.consumed, redraw: response.repaint }
+        if response.repaint {
+            window.request_redraw();
+        }
+        // What goes up may have gone down before the overlay was in the way.
+        let up = match event {
+            WindowEvent::MouseInput { state, .. } => *state == ElementState::Released,
+            WindowEvent::KeyboardInput { event, .. } => event.state == ElementState::Released,
+            _ => false,
+        };
+        response.consumed && !up
     }
 
     /// When the overlay has to be drawn again of itself.
@@ -91,74 +105,91 @@ impl Gui {
         self.due.filter(|_| self.is_shown())
     }
 
-    /// Draws the panels over a picture: the result, and what was changed.
+    /// The picture with what is shown over it, and what the user changed there; `timings` are those of a sample that is new.
     pub(super) fn draw(
         &mut self,
-        (device, window): (&Arc<Device>, &Window),
-        ground: &Ground<'_>,
-        content: &mut Content<'_>,
-    ) -> Result<(&Image, Change)> {
-        let tools = match self.tools.take() {
+        stage: &Stage,
+        picture: &mut Picture,
+        timings: Option<Timings>,
+    ) -> Result<(Arc<Image>, Change)> {
+        if let Some(timings) = timings {
+            self.history.add(&timings);
+            self.figures = None;
+        }
+        if !self.is_shown() {
+            return Ok((picture.image().clone(), Change::Nothing));
+        }
+        if self.panels && self.figures.is_none() {
+            self.figures = Some(Figures::new(&stage.device, picture)?);
+        }
+        let mut tools = match self.tools.take() {
             Some(tools) => tools,
-            None => Tools::new(device, window)?,
+            None => Tools::new(stage)?,
         };
-        let tools = self.tools.insert(tools);
-        let input = tools.input.take_egui_input(window);
-        let context = tools.input.egui_ctx().clone();
         let mut change = Change::Nothing;
-        let mut output = context.run_ui(input, |ui| {
+        let output = tools.run(&stage.window, |context| {
             if self.panels {
-                change = change.max(panels(ui.ctx(), content));
+                change = change.max(self.panels(context, &mut picture.scene.render));
             }
             if self.keys {
-                keys::show(ui.ctx(), &mut self.keys);
+                keys::show(context, &mut self.keys);
             }
         });
-        tools.input.handle_platform_output(window, output.platform_output);
-        let delay = output.viewport_output.get(&ViewportId::ROOT).map(|view| view.repaint_delay);
         // Longer than a day means never.
+        let delay = output.viewport_output.get(&ViewportId::ROOT).map(|view| view.repaint_delay);
         self.due = delay.filter(|&delay| delay < Duration::from_secs(86_400)).map(|d| Instant::now() + d);
-        tools.textures.update(&mut output.textures_delta, &mut tools.pass)?;
-        let scale = output.pixels_per_point;
-        let primitives = context.tessellate(output.shapes, scale);
-        let drawing = paint::drawing(primitives, scale, ground.picture.size());
-        Ok((tools.pass.draw(ground, &drawing)?, change))
+        let ground = Ground { picture: picture.image(), beside: None };
+        let image = tools.paint(&ground, output)?;
+        self.tools = Some(tools);
+        Ok((image, change))
     }
-}
 
-/// What the overlay makes of an event.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Taken {
-    /// Nothing else may answer it.
-    pub(super) whole: bool,
-    /// The overlay changes its looks.
-    pub(super) redraw: bool,
+    fn panels(&self, context: &Context, render: &mut RenderSettings) -> Change {
+        let mut change = Change::Nothing;
+        let window = egui::Window::new("amas").default_pos([8.0, 8.0]).default_width(WIDTH);
+        window.default_height(context.content_rect().height() - 64.0).show(context, |ui| {
+            ScrollArea::vertical().show(ui, |ui| {
+                section(ui, "Time", |ui| self.history.show(ui));
+                if let Some(figures) = &self.figures {
+                    section(ui, "Counts", |ui| figures.show(ui));
+                }
+                section(ui, "Settings", |ui| change = settings::show(ui, render));
+            });
+        });
+        change
+    }
 }
 
 impl Tools {
-    fn new(device: &Arc<Device>, window: &Window) -> Result<Self> {
+    fn new(stage: &Stage) -> Result<Self> {
         let context = Context::default();
         context.set_theme(egui::Theme::Dark);
-        // What moves by itself would have the window drawn again and again, on lavapipe at the picture's cost.
-        context.all_styles_mut(|style| style.animation_time = 0.0);
-        let scale = Some(window.scale_factor() as f32);
-        let side = Some(device.largest_image() as usize);
-        let input = egui_winit::State::new(context, ViewportId::ROOT, window, scale, None, side);
-        Ok(Self { input, textures: Textures::default(), pass: Overlay::new(device)? })
-    }
-}
-
-fn panels(context: &Context, content: &mut Content<'_>) -> Change {
-    let mut change = Change::Nothing;
-    let window = egui::Window::new("amas").default_pos([8.0, 8.0]).default_width(WIDTH).resizable(true);
-    window.show(context, |ui| {
-        ScrollArea::vertical().show(ui, |ui| {
-            section(ui, "Time", |ui| content.history.show(ui));
-            section(ui, "Counts", |ui| content.figures.show(ui));
-            section(ui, "Settings", |ui| change = settings::show(ui, content.render));
+        context.all_styles_mut(|style| {
+            // What moves by itself would have the window drawn again and again.
+            style.animation_time = 0.0;
+            style.spacing.scroll = ScrollStyle::solid();
         });
-    });
-    change
+        let scale = Some(stage.window.scale_factor() as f32);
+        let side = Some(stage.device.largest_image() as usize);
+        let input = egui_winit::State::new(context, ViewportId::ROOT, &stage.window, scale, None, side);
+        Ok(Self { input, textures: Textures::default(), pass: Overlay::new(&stage.device)? })
+    }
+
+    fn run(&mut self, window: &Window, mut show: impl FnMut(&Context)) -> FullOutput {
+        let input = self.input.take_egui_input(window);
+        let context = self.input.egui_ctx().clone();
+        let mut output = context.run_ui(input, |ui| show(ui.ctx()));
+        self.input.handle_platform_output(window, std::mem::take(&mut output.platform_output));
+        output
+    }
+
+    fn paint(&mut self, ground: &Ground<'_>, mut output: FullOutput) -> Result<Arc<Image>> {
+        self.textures.update(&mut output.textures_delta, &mut self.pass)?;
+        let scale = output.pixels_per_point;
+        let primitives = self.input.egui_ctx().tessellate(output.shapes, scale);
+        let drawing = paint::drawing(primitives, scale, ground.picture.size());
+        self.pass.draw(ground, &drawing)
+    }
 }
 
 fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
