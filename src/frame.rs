@@ -2,12 +2,14 @@
 //!
 //! prepass → cluster → resolve → forward (direct → indirect → present)
 
+mod adopt;
 mod cut;
 mod pick;
 mod results;
 mod retune;
 mod settings;
 mod timing;
+mod views;
 
 pub use settings::{FrameInputs, FrameSettings};
 pub use timing::{PassTime, Timings};

@@ -40,6 +40,7 @@ pub(super) enum Command {
   C           print the camera as TOML, and copy it to the clipboard
   V           wait for the display's refresh, or not
   O           panels: times, counts, settings
+  I           inspect what is under the pointer
   ?           the keys; also F1
   Esc         stop loading; else close
 

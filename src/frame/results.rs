@@ -4,8 +4,7 @@ use super::{Frame, FrameSettings, tiles, tiles_of};
 use crate::error::Result;
 use crate::gpu::{Image, Use};
 use crate::image::HdrImage;
-use crate::passes::PassInputs;
-use crate::passes::aov::{Aov, Quantity};
+use crate::passes::aov::Quantity;
 use crate::passes::cluster::ClusterTargets;
 use crate::passes::floors::{FloorPass, Floors};
 use crate::passes::pairs::{PairCount, PairPass};
@@ -55,13 +54,8 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn aov(&self, quantity: Quantity) -> Result<Vec<[f32; 4]>> {
-        let inputs =
-            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
-        let aov = Aov::new(&inputs, &self.targets, quantity)?;
-        self.device.run("aov", |cmd| {
-            aov.record(cmd, &self.view());
-            Ok(())
-        })?;
+        let aov = self.aov_pass(quantity)?;
+        self.draw_aov(&aov)?;
         let mut values = aov.fetch()?;
         if quantity == Quantity::Position {
             let origin = self.scene.origin.to_array();

@@ -118,4 +118,12 @@ impl Aov {
     pub fn fetch(&self) -> Result<Vec<[f32; 4]>> {
         self.image.fetch(Use::TransferRead, Use::TransferRead)
     }
+
+    /// The values at a pixel.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn texel(&self, pixel: [u32; 2]) -> Result<[f32; 4]> {
+        self.image.fetch_texel(pixel, Use::TransferRead, Use::TransferRead)
+    }
 }

@@ -41,6 +41,7 @@ pub use motion::Motion;
 pub use settings::RenderSettings;
 pub use texture::{Texels, Texture};
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// A whole scene, in world space, validated: every index is in range and every number finite.
@@ -58,6 +59,8 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Point lights, in file order, where they are at time 0.
     pub point_lights: Vec<PointLight>,
+    /// The point lights of each `[[light]]` that has any, in file order.
+    pub point_groups: Vec<Range<usize>>,
     /// Groups of them that move.
     pub motions: Vec<Motion>,
     /// Area lights, in file order.

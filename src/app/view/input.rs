@@ -97,6 +97,12 @@ impl Viewer<'_> {
             KeyCode::KeyR => {
                 pilot.go_home(None);
             }
+            KeyCode::KeyI => {
+                if let (Some(at), Some(picture)) = (self.pointer.at, &self.picture) {
+                    let time = self.start.elapsed().as_secs_f64();
+                    self.gui.pick(picture, pilot.camera(), time, at)?;
+                }
+            }
             _ if self.gui.key(code) => {}
             KeyCode::KeyC => print(write::camera(pilot.camera()).trim_end())?,
             KeyCode::KeyV => {

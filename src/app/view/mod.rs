@@ -118,13 +118,13 @@ impl Viewer<'_> {
             return stage.show(self.waiting.image(&stage.device, size, fraction)?).map(|_| ());
         };
         let now = Instant::now();
-        let moves = pilot.step(now) || picture.gpu.moves();
+        let moves = pilot.step(now) || picture.frame.scene().moves();
         picture.fit(size, pilot.camera())?;
         if self.remaining.is_some() && picture.is_complete() {
             picture.restart();
         }
         let timings = picture.step(pilot.camera(), (now - self.start).as_secs_f64(), moves)?;
-        let (image, change) = self.gui.draw(stage, picture, timings)?;
+        let (image, change) = self.gui.draw(stage, picture, pilot.camera(), timings)?;
         let shown = stage.show(&image)?;
         picture.change(change, pilot.camera())?;
         if shown && let Some(remaining) = &mut self.remaining {
@@ -161,6 +161,7 @@ impl Viewer<'_> {
                 let picture = picture?;
                 let home = loading.camera(&picture.scene)?;
                 self.pilot = Some(Pilot::new(&picture.scene.cameras, home, picture.diagonal()));
+                self.gui.begin(&picture.scene);
                 self.picture = Some(picture);
                 self.loading = None;
                 self.redraw();

@@ -13,7 +13,6 @@ use std::sync::Arc;
 /// A scene on the device, and the picture of it as far as it is refined.
 pub(super) struct Picture {
     pub(super) scene: Scene,
-    pub(super) gpu: Arc<GpuScene>,
     pub(super) frame: Frame,
     device: Arc<Device>,
     /// What the frame's samples show.
@@ -40,13 +39,13 @@ impl Picture {
     ) -> Result<Self> {
         let gpu = Arc::new(gpu);
         let frame = make_frame(device, &gpu, &scene, camera, size)?;
-        Ok(Self { scene, gpu, frame, device: device.clone(), shown: None })
+        Ok(Self { scene, frame, device: device.clone(), shown: None })
     }
 
     /// Makes the frame fit the window, and the kind of camera.
     pub(super) fn fit(&mut self, size: [u32; 2], camera: &Camera) -> Result<()> {
         if self.frame.settings().perspective != perspective(camera) {
-            self.frame = make_frame(&self.device, &self.gpu, &self.scene, camera, size)?;
+            self.frame.retune(FrameSettings { size, ..FrameSettings::new(&self.scene.render, camera) })?;
             self.shown = None;
         } else if self.frame.settings().size != size {
             self.frame.resize(size)?;
@@ -58,7 +57,7 @@ impl Picture {
     /// Renders the next sample, if there is one: a single one through the pixels' centres while the view `moves`, the scene's
     /// samples, one by one, once it rests.
     pub(super) fn step(&mut self, camera: &Camera, time: f64, moves: bool) -> Result<Option<Timings>> {
-        let time = if self.gpu.moves() { time } else { 0.0 };
+        let time = if self.frame.scene().moves() { time } else { 0.0 };
         let samples = if moves { 1 } else { self.scene.render.samples };
         let view = View { camera: camera.clone(), time, samples };
         let index = if self.shown.as_ref() == Some(&view) { self.frame.samples() } else { 0 };
@@ -92,13 +91,18 @@ impl Picture {
         match change {
             Change::Nothing => return Ok(()),
             Change::Picture => {}
+            Change::Edit(edit) => {
+                if !self.frame.adopt(&self.scene, edit)? {
+                    return self.change(Change::Scene, camera);
+                }
+            }
             Change::Frame => {
                 let settings = FrameSettings { size, ..FrameSettings::new(&self.scene.render, camera) };
                 self.frame.retune(settings)?;
             }
             Change::Scene => {
-                self.gpu = Arc::new(GpuScene::new(&self.device, &self.scene)?);
-                self.frame = make_frame(&self.device, &self.gpu, &self.scene, camera, size)?;
+                let gpu = Arc::new(GpuScene::new(&self.device, &self.scene)?);
+                self.frame = make_frame(&self.device, &gpu, &self.scene, camera, size)?;
             }
         }
         self.shown = None;
@@ -124,7 +128,7 @@ impl Picture {
 
     /// From corner to corner of the scene's surfaces, metres; `None` without any.
     pub(super) fn diagonal(&self) -> Option<f64> {
-        self.gpu.bounds.map(|[lower, upper]| lower.distance(upper))
+        self.frame.scene().bounds.map(|[lower, upper]| lower.distance(upper))
     }
 }
 

@@ -53,6 +53,7 @@ fn group(loader: &mut Loader, table: &Table, lights: Vec<PointLight>) -> Result<
         let course = motion::course(&animate, &lights)?;
         scene.motions.push(Motion { lights: first..first + lights.len(), course });
     }
+    scene.point_groups.push(first..first + lights.len());
     scene.point_lights.extend(lights);
     Ok(())
 }

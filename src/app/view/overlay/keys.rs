@@ -3,7 +3,7 @@
 use egui::Context;
 
 /// Keys and what they do, in the words of the help.
-const KEYS: [(&str, &str); 15] = [
+const KEYS: [(&str, &str); 16] = [
     ("W A S D", "forward, left, backward, right"),
     ("Q E", "down, up"),
     ("drag", "look around"),
@@ -16,6 +16,7 @@ const KEYS: [(&str, &str); 15] = [
     ("C", "print the camera as TOML, and copy it"),
     ("V", "wait for the display's refresh, or not"),
     ("O", "panels: times, counts, settings"),
+    ("I", "inspect what is under the pointer"),
     ("?", "these keys; also F1"),
     ("Esc", "stop loading; else close"),
     ("", "letters by their place on the keyboard"),

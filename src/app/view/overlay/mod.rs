@@ -4,9 +4,12 @@
 //! picture, so that a picture at rest need not be rendered again for a pointer that moves.
 
 mod counts;
+mod document;
 mod history;
+mod inspect;
 mod keys;
 mod paint;
+mod picked;
 mod settings;
 
 pub(super) use settings::Change;
@@ -17,12 +20,14 @@ use crate::error::Result;
 use crate::frame::Timings;
 use crate::gpu::Image;
 use crate::passes::overlay::{Ground, Overlay};
-use crate::scene::RenderSettings;
+use crate::scene::{Camera, Scene};
 use counts::Figures;
 use egui::style::ScrollStyle;
-use egui::{Color32, Context, FullOutput, ScrollArea, Ui, ViewportId};
+use egui::{Color32, Context, FullOutput, LayerId, ScrollArea, Ui, ViewportId, pos2};
 use history::History;
+use inspect::Inspector;
 use paint::Textures;
+use picked::project;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::event::{ElementState, WindowEvent};
@@ -41,7 +46,7 @@ const PASS_COLORS: [Color32; 7] = [
 ];
 
 /// Width of the panels, points.
-const WIDTH: f32 = 250.0;
+const WIDTH: f32 = 280.0;
 
 /// The overlay's state; what it draws with is made when it is first shown.
 #[derive(Default)]
@@ -54,6 +59,7 @@ pub(super) struct Gui {
     history: History,
     /// Of the last picture; `None` where nobody has asked.
     figures: Option<Figures>,
+    inspector: Inspector,
     /// When egui wants to be drawn again though nothing happened.
     due: Option<Instant>,
 }
@@ -69,6 +75,18 @@ impl Gui {
     /// Whether anything is to be drawn over the picture.
     fn is_shown(&self) -> bool {
         self.panels || self.keys
+    }
+
+    /// A scene was loaded.
+    pub(super) fn begin(&mut self, scene: &Scene) {
+        self.inspector.begin(scene);
+    }
+
+    /// Picks what is under a pixel, and opens the panels.
+    pub(super) fn pick(&mut self, picture: &Picture, camera: &Camera, time: f64, at: [f64; 2]) -> Result<()> {
+        self.inspector.picked = picked::pick(picture, camera, time, at)?;
+        self.panels = true;
+        Ok(())
     }
 
     /// Opens or closes what a key stands for; whether it does.
@@ -110,6 +128,7 @@ impl Gui {
         &mut self,
         stage: &Stage,
         picture: &mut Picture,
+        camera: &Camera,
         timings: Option<Timings>,
     ) -> Result<(Arc<Image>, Change)> {
         if let Some(timings) = timings {
@@ -129,7 +148,8 @@ impl Gui {
         let mut change = Change::Nothing;
         let output = tools.run(&stage.window, |context| {
             if self.panels {
-                change = change.max(self.panels(context, &mut picture.scene.render));
+                change = change.max(self.panels(context, &mut picture.scene));
+                self.mark(context, &picture.scene, camera, picture.frame.settings().size);
             }
             if self.keys {
                 keys::show(context, &mut self.keys);
@@ -144,7 +164,7 @@ impl Gui {
         Ok((image, change))
     }
 
-    fn panels(&self, context: &Context, render: &mut RenderSettings) -> Change {
+    fn panels(&mut self, context: &Context, scene: &mut Scene) -> Change {
         let mut change = Change::Nothing;
         let window = egui::Window::new("amas").default_pos([8.0, 8.0]).default_width(WIDTH);
         window.default_height(context.content_rect().height() - 64.0).show(context, |ui| {
@@ -153,10 +173,25 @@ impl Gui {
                 if let Some(figures) = &self.figures {
                     section(ui, "Counts", |ui| figures.show(ui));
                 }
-                section(ui, "Settings", |ui| change = settings::show(ui, render));
+                let areas = !scene.area_lights.is_empty();
+                section(ui, "Settings", |ui| change = settings::show(ui, &mut scene.render, areas));
+                section(ui, "Picked", |ui| change = change.max(self.inspector.show(ui, scene)));
+                section(ui, "Save", |ui| self.inspector.save(ui, scene));
             });
         });
         change
+    }
+
+    /// A ring around the light that is picked.
+    fn mark(&self, context: &Context, scene: &Scene, camera: &Camera, size: [u32; 2]) {
+        let place = self.inspector.picked.and_then(|picked| picked.place(scene));
+        let Some([x, y, _]) = place.and_then(|place| project(camera, size, place.as_dvec3())) else {
+            return;
+        };
+        let scale = context.pixels_per_point();
+        let painter = context.layer_painter(LayerId::background());
+        painter.circle_stroke(pos2(x as f32 / scale, y as f32 / scale), 8.0, (1.5, Color32::WHITE));
+        painter.circle_stroke(pos2(x as f32 / scale, y as f32 / scale), 9.5, (1.5, Color32::BLACK));
     }
 }
 

@@ -1,5 +1,6 @@
 //! The settings of the picture, `[render]` of the scene.
 
+use crate::gpu_scene::Edit;
 use crate::scene::RenderSettings;
 use crate::scene::settings::Tonemap;
 use egui::{DragValue, Slider, Ui};
@@ -10,13 +11,16 @@ pub(in crate::app::view) enum Change {
     Nothing,
     /// The picture anew.
     Picture,
+    /// A small change of the scene.
+    Edit(Edit),
     /// The frame under other settings.
     Frame,
     /// The scene on the device.
     Scene,
 }
 
-pub(super) fn show(ui: &mut Ui, render: &mut RenderSettings) -> Change {
+/// Of a scene with area lights or without.
+pub(super) fn show(ui: &mut Ui, render: &mut RenderSettings, areas: bool) -> Change {
     let before = render.clone();
     egui::Grid::new("settings").num_columns(2).show(ui, |ui| {
         let mut row = |name: &str, hint: &str, add: &mut dyn FnMut(&mut Ui)| {
@@ -49,15 +53,16 @@ pub(super) fn show(ui: &mut Ui, render: &mut RenderSettings) -> Change {
             ui.checkbox(&mut render.shadows, "");
         });
     });
-    change(&before, render)
+    change(&before, render, areas)
 }
 
-/// What lies between two settings.
-fn change(before: &RenderSettings, after: &RenderSettings) -> Change {
+/// What lies between two settings. Which lobes may take closed forms of area lights, `light_error` decides when the scene is
+/// uploaded.
+fn change(before: &RenderSettings, after: &RenderSettings, areas: bool) -> Change {
     let picture = RenderSettings { exposure: after.exposure, samples: after.samples, ..before.clone() };
     if before == after {
         Change::Nothing
-    } else if before.shadows != after.shadows {
+    } else if before.shadows != after.shadows || areas && before.light_error != after.light_error {
         Change::Scene
     } else if picture == *after {
         Change::Picture
@@ -76,13 +81,15 @@ mod tests {
         let of = |edit: fn(&mut RenderSettings)| {
             let mut after = before.clone();
             edit(&mut after);
-            change(&before, &after)
+            change(&before, &after, false)
         };
         assert_eq!(of(|_| {}), Change::Nothing);
         assert_eq!(of(|render| render.exposure = 1.0), Change::Picture);
         assert_eq!(of(|render| render.samples = 9), Change::Picture);
         assert_eq!(of(|render| render.tonemap = Tonemap::Aces), Change::Frame);
         assert_eq!(of(|render| render.light_error = 0.5), Change::Frame);
+        let exact = RenderSettings { light_error: 0.0, ..before.clone() };
+        assert_eq!(change(&before, &exact, true), Change::Scene);
         assert_eq!(of(|render| (render.shadows, render.exposure) = (true, 1.0)), Change::Scene);
     }
 }
