@@ -139,16 +139,11 @@ impl Source<'_> {
 
 /// The picture of a variable; says which numbers its darkest and brightest colours stand for.
 fn picture(path: &Path, quantity: Quantity, values: &[[f32; 4]]) -> Result<Vec<[u8; 3]>> {
-    let first: Vec<_> = values.iter().map(|&[x, .., there]| (there > 0.0).then_some(x)).collect();
-    match quantity {
-        Quantity::Normal => Ok(false_color::directions(values)),
-        Quantity::Material | Quantity::Cluster => Ok(false_color::indices(&first)),
-        _ => {
-            let range = false_color::range(&first);
-            print(format_args!("{}: {} (dark) to {} (bright)", path.display(), range[0], range[1]))?;
-            Ok(false_color::heat(&first, range))
-        }
+    let (colors, range) = false_color::of(quantity, values);
+    if let Some([dark, bright]) = range {
+        print(format_args!("{}: {dark} (dark) to {bright} (bright)", path.display()))?;
     }
+    Ok(colors)
 }
 
 #[cfg(test)]

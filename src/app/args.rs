@@ -41,6 +41,9 @@ pub(super) enum Command {
   V           wait for the display's refresh, or not
   O           panels: times, counts, settings
   I           inspect what is under the pointer
+  F2 … F11    albedo, normal, roughness, depth, depth slice, cluster, lights evaluated, lights evaluated per useful
+              one, estimated error, bound of the closed form's error; again: the picture
+  X           beside the reference, the error against it, the picture alone
   ?           the keys; also F1
   Esc         stop loading; else close
 
@@ -151,6 +154,9 @@ pub(super) struct ViewOptions {
     /// Close after N pictures, a sample each, rendered one after the other
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) frames: Option<u32>,
+    /// A picture (.exr or .pfm) to compare with, instead of the reference
+    #[arg(long, value_name = "FILE")]
+    pub(super) compare: Option<PathBuf>,
     /// Do not wait for the display's refresh
     #[arg(long)]
     pub(super) no_vsync: bool,

@@ -4,6 +4,8 @@ use super::Frame;
 use crate::error::Result;
 use crate::passes::PassInputs;
 use crate::passes::aov::{Aov, Quantity};
+#[cfg(feature = "viewer")]
+use crate::passes::develop::Develop;
 
 impl Frame {
     /// Compiles the pass of one quantity, for [`Frame::draw_aov`]; it fits the frame until that changes its size.
@@ -37,5 +39,25 @@ impl Frame {
         self.draw_aov(&aov)?;
         let [index, .., there] = aov.texel(pixel)?;
         Ok((there > 0.0).then_some((index >= 0.0).then_some(index as u32)))
+    }
+
+    /// Compiles a pass that develops pictures from elsewhere as the frame's, for [`Frame::develop`].
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    #[cfg(feature = "viewer")]
+    pub fn develop_pass(&self) -> Result<Develop> {
+        let inputs =
+            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
+        Develop::new(&inputs, self.settings.tonemap, self.settings.size)
+    }
+
+    /// Develops a scene-linear picture, four numbers a pixel, times `scale`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    #[cfg(feature = "viewer")]
+    pub fn develop(&self, develop: &Develop, pixels: &[[f32; 4]], scale: f32) -> Result<()> {
+        develop.develop(&self.view(), pixels, scale)
     }
 }

@@ -5,6 +5,8 @@
 
 pub mod aov;
 pub mod cluster;
+#[cfg(feature = "viewer")]
+pub mod develop;
 pub mod direct;
 pub mod floors;
 pub mod forward;

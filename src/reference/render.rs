@@ -72,19 +72,11 @@ pub struct Rendered {
 /// # Errors
 /// [`Error::Usage`] for an empty size, no samples, or an integrator that does not exist yet.
 pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rendered> {
-    check(options)?;
-    let world = World {
-        scene,
-        geometry: Geometry::new(scene),
-        points: PointLights::new(&scene.point_lights),
-        emitters: scene.area_lights.iter().map(|l| Emitter::new(l, &scene.textures)).collect(),
-        shadowed: options.integrator == Integrator::Shadowed,
-        tolerance: options.tolerance * f64::from(options.spp).sqrt(),
-    };
+    let oracle = Oracle::new(scene, camera, options)?;
     let [width, height] = options.size;
     let bar = progress_bar(u64::from(height), options.progress);
     let row = |y: u32| {
-        let row: Vec<_> = (0..width).map(|x| world.pixel(camera, options, x, y)).collect();
+        let row: Vec<_> = (0..width).map(|x| oracle.estimate(x, y)).collect();
         bar.inc(1);
         row
     };
@@ -96,6 +88,42 @@ pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rende
         pixels: pixels.iter().flatten().map(|e| channel(e).as_vec3().to_array()).collect(),
     };
     Ok(Rendered { image: picture(|e| e.value), standard_error: picture(|e| e.standard_error) })
+}
+
+/// A picture of which any pixel can be asked for, in any order.
+pub struct Oracle<'a> {
+    world: World<'a>,
+    camera: &'a Camera,
+    options: Options,
+}
+
+impl<'a> Oracle<'a> {
+    /// Makes ready what every pixel needs; see [`render`].
+    ///
+    /// # Errors
+    /// As [`render`].
+    pub fn new(scene: &'a Scene, camera: &'a Camera, options: &Options) -> Result<Self> {
+        check(options)?;
+        let world = World {
+            scene,
+            geometry: Geometry::new(scene),
+            points: PointLights::new(&scene.point_lights),
+            emitters: scene.area_lights.iter().map(|l| Emitter::new(l, &scene.textures)).collect(),
+            shadowed: options.integrator == Integrator::Shadowed,
+            tolerance: options.tolerance * f64::from(options.spp).sqrt(),
+        };
+        Ok(Self { world, camera, options: *options })
+    }
+
+    /// Scene-linear radiance of a pixel.
+    #[must_use]
+    pub fn pixel(&self, x: u32, y: u32) -> [f32; 3] {
+        self.estimate(x, y).value.as_vec3().to_array()
+    }
+
+    fn estimate(&self, x: u32, y: u32) -> Estimate {
+        self.world.pixel(self.camera, &self.options, x, y)
+    }
 }
 
 fn check(options: &Options) -> Result<()> {

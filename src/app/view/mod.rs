@@ -71,6 +71,7 @@ fn open(options: &ViewOptions, size: [u32; 2]) -> Result<()> {
         closing: false,
         outcome: Ok(()),
     };
+    viewer.gui.compare_with(options.compare.clone());
     event_loop.run_app(&mut viewer).map_err(|error| display::missing(&error.to_string()))?;
     viewer.close()
 }
@@ -119,6 +120,7 @@ impl Viewer<'_> {
         };
         let now = Instant::now();
         let moves = pilot.step(now) || picture.frame.scene().moves();
+        picture.set_single(self.gui.shows_view());
         picture.fit(size, pilot.camera())?;
         if self.remaining.is_some() && picture.is_complete() {
             picture.restart();

@@ -15,6 +15,8 @@ pub(super) struct Picture {
     pub(super) scene: Scene,
     pub(super) frame: Frame,
     device: Arc<Device>,
+    /// One sample through the pixels' centres is all that is asked for.
+    single: bool,
     /// What the frame's samples show.
     shown: Option<View>,
 }
@@ -39,7 +41,7 @@ impl Picture {
     ) -> Result<Self> {
         let gpu = Arc::new(gpu);
         let frame = make_frame(device, &gpu, &scene, camera, size)?;
-        Ok(Self { scene, frame, device: device.clone(), shown: None })
+        Ok(Self { scene, frame, device: device.clone(), single: false, shown: None })
     }
 
     /// Makes the frame fit the window, and the kind of camera.
@@ -58,7 +60,7 @@ impl Picture {
     /// samples, one by one, once it rests.
     pub(super) fn step(&mut self, camera: &Camera, time: f64, moves: bool) -> Result<Option<Timings>> {
         let time = if self.frame.scene().moves() { time } else { 0.0 };
-        let samples = if moves { 1 } else { self.scene.render.samples };
+        let samples = if moves { 1 } else { self.samples() };
         let view = View { camera: camera.clone(), time, samples };
         let index = if self.shown.as_ref() == Some(&view) { self.frame.samples() } else { 0 };
         if index >= samples {
@@ -78,6 +80,16 @@ impl Picture {
         )?;
         self.shown = Some(view);
         Ok(Some(timings))
+    }
+
+    /// Asks for a single sample through the pixels' centres, or for the scene's.
+    pub(super) fn set_single(&mut self, single: bool) {
+        self.single = single;
+    }
+
+    /// Of the view at rest.
+    pub(super) fn samples(&self) -> u32 {
+        if self.single { 1 } else { self.scene.render.samples }
     }
 
     /// Renders the same view again, from its first sample on.
@@ -112,7 +124,7 @@ impl Picture {
     /// Whether every sample of a view that rests is there.
     pub(super) fn is_complete(&self) -> bool {
         let complete =
-            |view: &View| self.frame.samples() >= view.samples && view.samples == self.scene.render.samples;
+            |view: &View| self.frame.samples() >= view.samples && view.samples == self.samples();
         self.shown.as_ref().is_some_and(complete)
     }
 

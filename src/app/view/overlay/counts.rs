@@ -38,7 +38,7 @@ impl Figures {
             grid: frame.grid(),
             point_lights: frame.scene().lights.lights.len(),
             area_lights: frame.scene().area.count,
-            samples: [frame.samples(), picture.scene.render.samples],
+            samples: [frame.samples(), picture.samples()],
             error: frame.light_error()? + folds,
             memory: device.peak_memory() as f64 / MEGABYTE,
             counters,

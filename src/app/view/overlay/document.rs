@@ -261,6 +261,7 @@ exposure = 1.5  # bright
 name = "main"
 position = [0, 1, 4]
 target = [0, 1, 0]
+vertical_fov = 45
 
 [[material]]
 name = "gold"

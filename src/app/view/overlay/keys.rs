@@ -3,7 +3,7 @@
 use egui::Context;
 
 /// Keys and what they do, in the words of the help.
-const KEYS: [(&str, &str); 16] = [
+const KEYS: [(&str, &str); 18] = [
     ("W A S D", "forward, left, backward, right"),
     ("Q E", "down, up"),
     ("drag", "look around"),
@@ -17,6 +17,8 @@ const KEYS: [(&str, &str); 16] = [
     ("V", "wait for the display's refresh, or not"),
     ("O", "panels: times, counts, settings"),
     ("I", "inspect what is under the pointer"),
+    ("F2 … F11", "debug views; again: the picture"),
+    ("X", "beside the reference, the error against it, the picture alone"),
     ("?", "these keys; also F1"),
     ("Esc", "stop loading; else close"),
     ("", "letters by their place on the keyboard"),

@@ -3,14 +3,18 @@
 //! Hidden, it is neither made nor drawn: the picture goes to the window as it is. Shown, it is drawn into a copy of the
 //! picture, so that a picture at rest need not be rendered again for a pointer that moves.
 
+mod compare;
 mod counts;
 mod document;
 mod history;
 mod inspect;
 mod keys;
+mod legend;
 mod paint;
 mod picked;
 mod settings;
+mod truth;
+mod views;
 
 pub(super) use settings::Change;
 
@@ -21,13 +25,16 @@ use crate::frame::Timings;
 use crate::gpu::Image;
 use crate::passes::overlay::{Ground, Overlay};
 use crate::scene::{Camera, Scene};
+use compare::{Beside, Compare, Mode};
 use counts::Figures;
 use egui::style::ScrollStyle;
-use egui::{Color32, Context, FullOutput, LayerId, ScrollArea, Ui, ViewportId, pos2};
+use egui::{Color32, ComboBox, Context, FullOutput, LayerId, ScrollArea, Ui, ViewportId, pos2};
 use history::History;
 use inspect::Inspector;
 use paint::Textures;
 use picked::project;
+use views::{VIEWS, Views};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::event::{ElementState, WindowEvent};
@@ -45,6 +52,9 @@ const PASS_COLORS: [Color32; 7] = [
     Color32::from_rgb(0, 114, 178),
 ];
 
+/// Time between two looks at the reference.
+const LOOK: Duration = Duration::from_millis(250);
+
 /// Width of the panels, points.
 const WIDTH: f32 = 280.0;
 
@@ -60,6 +70,8 @@ pub(super) struct Gui {
     /// Of the last picture; `None` where nobody has asked.
     figures: Option<Figures>,
     inspector: Inspector,
+    views: Views,
+    compare: Compare,
     /// When egui wants to be drawn again though nothing happened.
     due: Option<Instant>,
 }
@@ -74,12 +86,24 @@ struct Tools {
 impl Gui {
     /// Whether anything is to be drawn over the picture.
     fn is_shown(&self) -> bool {
-        self.panels || self.keys
+        self.panels || self.keys || self.shows_view() || self.compare.mode != Mode::Off
+    }
+
+    /// Whether a debug view is shown in the picture's place.
+    pub(super) fn shows_view(&self) -> bool {
+        self.views.shown().is_some()
+    }
+
+    /// A file to compare pictures with, instead of the oracle's.
+    pub(super) fn compare_with(&mut self, file: Option<PathBuf>) {
+        self.compare.file = file;
     }
 
     /// A scene was loaded.
     pub(super) fn begin(&mut self, scene: &Scene) {
         self.inspector.begin(scene);
+        self.views.forget();
+        self.compare.forget();
     }
 
     /// Picks what is under a pixel, and opens the panels.
@@ -94,7 +118,11 @@ impl Gui {
         let open = match code {
             KeyCode::KeyO => &mut self.panels,
             KeyCode::Slash | KeyCode::F1 => &mut self.keys,
-            _ => return false,
+            KeyCode::KeyX => {
+                self.compare.next();
+                return true;
+            }
+            _ => return self.views.key(code),
         };
         *open = !*open;
         true
@@ -102,7 +130,8 @@ impl Gui {
 
     /// Whether an event is the overlay's alone.
     pub(super) fn takes(&mut self, window: &Window, event: &WindowEvent) -> bool {
-        let Some(tools) = self.tools.as_mut().filter(|_| self.panels || self.keys) else {
+        let shown = self.is_shown();
+        let Some(tools) = self.tools.as_mut().filter(|_| shown) else {
             return false;
         };
         let response = tools.input.on_window_event(window, event);
@@ -134,6 +163,8 @@ impl Gui {
         if let Some(timings) = timings {
             self.history.add(&timings);
             self.figures = None;
+            self.views.outdate();
+            self.compare.refresh();
         }
         if !self.is_shown() {
             return Ok((picture.image().clone(), Change::Nothing));
@@ -146,22 +177,46 @@ impl Gui {
             None => Tools::new(stage)?,
         };
         let mut change = Change::Nothing;
+        let size = picture.frame.settings().size;
         let output = tools.run(&stage.window, |context| {
             if self.panels {
                 change = change.max(self.panels(context, &mut picture.scene));
-                self.mark(context, &picture.scene, camera, picture.frame.settings().size);
+                self.mark(context, &picture.scene, camera, size);
             }
             if self.keys {
                 keys::show(context, &mut self.keys);
             }
+            legend::show(context, &self.views, &mut self.compare, size);
         });
         // Longer than a day means never.
         let delay = output.viewport_output.get(&ViewportId::ROOT).map(|view| view.repaint_delay);
         self.due = delay.filter(|&delay| delay < Duration::from_secs(86_400)).map(|d| Instant::now() + d);
-        let ground = Ground { picture: picture.image(), beside: None };
+        if self.compare.is_at_work() {
+            let look = Instant::now() + LOOK;
+            self.due = Some(self.due.map_or(look, |due| due.min(look)));
+        }
+        let beside = self.compare.images(stage, picture, camera)?;
+        let below = self.views.image(stage, picture)?.unwrap_or(picture.image());
+        let ground = match beside {
+            Beside::Nothing => Ground { picture: below, beside: None },
+            Beside::Split(truth, column) => Ground { picture: below, beside: Some((truth, column)) },
+            Beside::Difference(image) => Ground { picture: image, beside: None },
+        };
         let image = tools.paint(&ground, output)?;
         self.tools = Some(tools);
+        self.settle(change);
         Ok((image, change))
+    }
+
+    /// Forgets what a change makes wrong.
+    fn settle(&mut self, change: Change) {
+        if change >= Change::Frame {
+            self.views.forget();
+            self.compare.outdate();
+        }
+        if matches!(change, Change::Edit(_) | Change::Scene) {
+            self.compare.forget();
+        }
     }
 
     fn panels(&mut self, context: &Context, scene: &mut Scene) -> Change {
@@ -170,6 +225,7 @@ impl Gui {
         window.default_height(context.content_rect().height() - 64.0).show(context, |ui| {
             ScrollArea::vertical().show(ui, |ui| {
                 section(ui, "Time", |ui| self.history.show(ui));
+                section(ui, "View", |ui| self.choose(ui));
                 if let Some(figures) = &self.figures {
                     section(ui, "Counts", |ui| figures.show(ui));
                 }
@@ -180,6 +236,30 @@ impl Gui {
             });
         });
         change
+    }
+
+    /// The debug views and comparisons, as the keys have them.
+    fn choose(&mut self, ui: &mut Ui) {
+        let mut shown = self.views.shown();
+        ComboBox::from_id_salt("view").selected_text(shown.map_or("picture", |view| VIEWS[view].name)).show_ui(
+            ui,
+            |ui| {
+                ui.selectable_value(&mut shown, None, "picture");
+                for (index, view) in VIEWS.iter().enumerate() {
+                    ui.selectable_value(&mut shown, Some(index), view.name);
+                }
+            },
+        );
+        self.views.show(shown);
+        let mut mode = self.compare.mode;
+        ui.horizontal(|ui| {
+            for (name, value) in [("alone", Mode::Off), ("split", Mode::Split), ("error", Mode::Difference)] {
+                ui.radio_value(&mut mode, value, name);
+            }
+        });
+        while mode != self.compare.mode {
+            self.compare.next();
+        }
     }
 
     /// A ring around the light that is picked.
