@@ -157,6 +157,9 @@ pub(super) struct ViewOptions {
     /// A picture (.exr or .pfm) to compare with, instead of the reference
     #[arg(long, value_name = "FILE")]
     pub(super) compare: Option<PathBuf>,
+    /// Sources of the shaders, compiled again when they change [default: those of the checkout that amas was built from]
+    #[arg(long, value_name = "DIR")]
+    pub(super) glsl: Option<PathBuf>,
     /// Do not wait for the display's refresh
     #[arg(long)]
     pub(super) no_vsync: bool,

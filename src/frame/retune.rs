@@ -16,8 +16,7 @@ impl Frame {
         let kept = FrameSettings { size: settings.size, perspective: settings.perspective, ..self.settings };
         let curve = Work { tonemap: next.tonemap, ..self.work };
         if kept != self.settings || curve != next || settings.brute_force != self.settings.brute_force {
-            *self = Self::new(&self.device.clone(), &self.scene.clone(), settings)?;
-            return Ok(());
+            return self.remake(settings);
         }
         if next.tonemap != self.work.tonemap {
             let inputs =
@@ -26,6 +25,15 @@ impl Frame {
         }
         self.work = next;
         self.settings = settings;
+        Ok(())
+    }
+
+    /// Compiles every pass anew; where that fails, the frame stays as it is.
+    ///
+    /// # Errors
+    /// As [`Frame::new`].
+    pub fn remake(&mut self, settings: FrameSettings) -> Result<()> {
+        *self = Self::new(&self.device.clone(), &self.scene.clone(), settings)?;
         Ok(())
     }
 }

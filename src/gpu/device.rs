@@ -4,11 +4,15 @@ use super::allocation::Memory;
 use super::candidate::{Candidate, Presentation, candidates, choose};
 use super::instance::Instance;
 use super::requirements::Report;
-use super::{Called, Commands};
+use super::{Called, Commands, Shader};
 use crate::error::{Error, Result};
 use ash::vk;
+use std::collections::HashMap;
 use std::ffi::CStr;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
+
+/// SPIR-V in the place of what the program was built with, by the names of the shaders.
+pub type Replaced = HashMap<&'static str, Vec<u32>>;
 
 /// How to open a device.
 #[derive(Clone, Debug, Default)]
@@ -49,6 +53,8 @@ pub struct Device {
     queue: vk::Queue,
     pub(super) family: u32,
     pool: vk::CommandPool,
+    // Shaders that changed since the program was built, by their names.
+    replaced: RwLock<Replaced>,
     // Queue and pool are used by one thread at a time.
     turn: Mutex<()>,
     // Shared with the surface, which may be destroyed later than the device.
@@ -123,6 +129,7 @@ impl Device {
             queue,
             family: chosen.family,
             pool,
+            replaced: RwLock::default(),
             turn: Mutex::new(()),
             instance,
             raw,
@@ -200,6 +207,18 @@ impl Device {
         unsafe { self.raw.queue_submit(self.queue, &submits, vk::Fence::null()) }.called("vkQueueSubmit")?;
         // SAFETY: this thread has the turn.
         unsafe { self.raw.queue_wait_idle(self.queue) }.called("vkQueueWaitIdle")
+    }
+
+    /// Has pipelines that are made from now on use other shaders; what they were to use before.
+    #[cfg(feature = "viewer")]
+    pub fn replace_shaders(&self, replaced: Replaced) -> Replaced {
+        std::mem::replace(&mut self.replaced.write().unwrap_or_else(PoisonError::into_inner), replaced)
+    }
+
+    /// The words of a shader, as built or replaced.
+    pub(super) fn words(&self, shader: Shader) -> Vec<u32> {
+        let replaced = self.replaced.read().unwrap_or_else(PoisonError::into_inner);
+        replaced.get(shader.name).cloned().unwrap_or_else(|| shader.words())
     }
 
     /// Hands the queue to `call`, which no other thread uses meanwhile.

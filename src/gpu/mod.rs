@@ -12,6 +12,8 @@ mod barrier;
 mod buffer;
 mod candidate;
 mod command;
+#[cfg(feature = "viewer")]
+pub(crate) mod compile;
 mod descriptor;
 mod device;
 #[cfg(feature = "viewer")]
@@ -33,7 +35,7 @@ pub use barrier::Use;
 pub use buffer::{Buffer, BufferUse};
 pub use command::Commands;
 pub use descriptor::{DescriptorSet, DescriptorSets, PipelineLayout, SetLayout};
-pub use device::{Device, DeviceInfo, Options};
+pub use device::{Device, DeviceInfo, Options, Replaced};
 pub use image::{Image, ImageDescription};
 pub use pipeline::{
     Blend, ComputePipeline, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, Specialization, Vertices,

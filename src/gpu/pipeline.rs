@@ -295,7 +295,7 @@ struct Module {
 
 impl Module {
     fn new(device: &Arc<Device>, shader: Shader) -> Result<Self> {
-        let words = shader.words();
+        let words = device.words(shader);
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
         // SAFETY: the words are SPIR-V that shaderc made for Vulkan 1.2.
         let raw = unsafe { device.raw.create_shader_module(&info, None) }.called("vkCreateShaderModule")?;

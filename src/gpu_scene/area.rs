@@ -114,9 +114,8 @@ fn padded(lights: &AreaLights) -> (Vec<[u32; 4]>, [u32; 3]) {
 }
 
 fn specialization(records: &[AreaRecord], shadows: bool) -> Vec<(u32, u32)> {
-    let kind = |wanted| {
-        u32::from(records.iter().any(|record| record.kind & ((1 << AREA_KIND_BITS) - 1) == wanted))
-    };
+    let kind =
+        |wanted| u32::from(records.iter().any(|record| record.kind & ((1 << AREA_KIND_BITS) - 1) == wanted));
     let flag = |wanted| u32::from(records.iter().any(|record| record.kind & wanted != 0));
     vec![
         (shared::SPEC_SHADOWS, u32::from(shadows)),

@@ -4,7 +4,8 @@ use super::present::Present;
 use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, DescriptorSets, Device, Framebuffer, Image, ImageDescription, Outside, RenderPass, Subpass, Use,
+    Attachment, DescriptorSets, Device, Framebuffer, Image, ImageDescription, Outside, RenderPass, Subpass,
+    Use,
 };
 use crate::scene::settings::Tonemap;
 use crate::shared;

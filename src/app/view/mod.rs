@@ -11,6 +11,7 @@ mod loading;
 mod overlay;
 mod picture;
 mod pilot;
+mod shaders;
 mod signals;
 mod stage;
 mod waiting;
@@ -18,6 +19,7 @@ mod waiting;
 use super::args::ViewOptions;
 use super::{in_scene, report};
 use crate::error::Result;
+use crate::gpu::Replaced;
 use input::Pointer;
 use loading::{Loading, Progress};
 use overlay::{Change, Gui};
@@ -38,6 +40,8 @@ const LOOK: Duration = Duration::from_millis(50);
 enum Event {
     /// A signal asks to close.
     Quit,
+    /// Sources of shaders changed: what they compile to, or why they do not.
+    Shaders(std::result::Result<Replaced, String>),
     /// A job of that ticket has come to something.
     Loaded(u64, Progress),
 }
@@ -72,6 +76,7 @@ fn open(options: &ViewOptions, size: [u32; 2]) -> Result<()> {
         outcome: Ok(()),
     };
     viewer.gui.compare_with(options.compare.clone());
+    viewer.gui.shaders_watched(shaders::watch(options.glsl.as_deref(), viewer.proxy.clone()));
     event_loop.run_app(&mut viewer).map_err(|error| display::missing(&error.to_string()))?;
     viewer.close()
 }
@@ -172,6 +177,23 @@ impl Viewer<'_> {
         Ok(())
     }
 
+    /// Makes the frame anew with shaders that have changed; where that fails, the old one stays.
+    fn reload(&mut self, shaders: std::result::Result<Replaced, String>) {
+        let (Some(stage), Some(picture), Some(pilot)) = (&self.stage, &mut self.picture, &self.pilot) else {
+            return;
+        };
+        let made = shaders.and_then(|shaders| {
+            let before = stage.device.replace_shaders(Replaced::new());
+            stage.device.replace_shaders(before.clone().into_iter().chain(shaders).collect());
+            picture.remake(pilot.camera()).map_err(|error| {
+                stage.device.replace_shaders(before);
+                error.to_string()
+            })
+        });
+        self.gui.shaders_compiled(made);
+        self.redraw();
+    }
+
     /// Ends the loop where something failed.
     fn settle(&mut self, event_loop: &ActiveEventLoop, result: Result<()>) {
         if result.is_err() && self.outcome.is_ok() {
@@ -226,6 +248,10 @@ impl ApplicationHandler<Event> for Viewer<'_> {
         let result = match event {
             Event::Quit => {
                 self.closing = true;
+                Ok(())
+            }
+            Event::Shaders(shaders) => {
+                self.reload(shaders);
                 Ok(())
             }
             Event::Loaded(ticket, progress) => {

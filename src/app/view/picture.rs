@@ -121,10 +121,20 @@ impl Picture {
         Ok(())
     }
 
+    /// Compiles every pass anew.
+    pub(super) fn remake(&mut self, camera: &Camera) -> Result<()> {
+        let settings = FrameSettings {
+            size: self.frame.settings().size,
+            ..FrameSettings::new(&self.scene.render, camera)
+        };
+        self.frame.remake(settings)?;
+        self.shown = None;
+        Ok(())
+    }
+
     /// Whether every sample of a view that rests is there.
     pub(super) fn is_complete(&self) -> bool {
-        let complete =
-            |view: &View| self.frame.samples() >= view.samples && view.samples == self.samples();
+        let complete = |view: &View| self.frame.samples() >= view.samples && view.samples == self.samples();
         self.shown.as_ref().is_some_and(complete)
     }
 

@@ -216,7 +216,12 @@ fn set_point(
     Ok(())
 }
 
-fn set_area(document: &mut DocumentMut, index: usize, old: &AreaLight, now: &AreaLight) -> Result<(), String> {
+fn set_area(
+    document: &mut DocumentMut,
+    index: usize,
+    old: &AreaLight,
+    now: &AreaLight,
+) -> Result<(), String> {
     let shapes = ["polygon", "rect", "disk", "line"];
     let is_area = |table: &&mut dyn TableLike| {
         table.get("type").and_then(Entry::as_str).is_some_and(|kind| shapes.contains(&kind))
@@ -324,7 +329,8 @@ radiance = [4, 4, 4]
         assert_eq!(saved.point_lights, scene.point_lights);
         assert_eq!(saved.area_lights, scene.area_lights);
         let text = std::fs::read_to_string(&target).unwrap();
-        for kept in ["# A hall.", "size = [8, 8]   # small", "exposure = -0.7  # bright", "# grey", "# white"] {
+        for kept in ["# A hall.", "size = [8, 8]   # small", "exposure = -0.7  # bright", "# grey", "# white"]
+        {
             assert!(text.contains(kept), "{kept} is not in: {text}");
         }
         assert!(!text.contains("preset"), "{text}");

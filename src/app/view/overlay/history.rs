@@ -94,7 +94,11 @@ fn bar(ui: &mut Ui, name: &str, ms: f64, top: f64, color: Color32) {
     let (response, painter) = ui.allocate_painter(vec2(ui.available_width(), BAR), Sense::hover());
     let rect = response.rect;
     let width = (ms / top).min(1.0) as f32 * rect.width();
-    painter.rect_filled(Rect::from_min_size(rect.min, vec2(width, BAR - 2.0)), 1.0, color.gamma_multiply(0.7));
+    painter.rect_filled(
+        Rect::from_min_size(rect.min, vec2(width, BAR - 2.0)),
+        1.0,
+        color.gamma_multiply(0.7),
+    );
     let font = FontId::monospace(10.0);
     let text = ui.visuals().strong_text_color();
     painter.text(rect.left_top() + vec2(3.0, 0.0), Align2::LEFT_TOP, name, font.clone(), text);
@@ -104,7 +108,11 @@ fn bar(ui: &mut Ui, name: &str, ms: f64, top: f64, color: Color32) {
 /// The least of 1, 2, 5, 10, 20 … that is not below.
 fn nice_above(ms: f64) -> f64 {
     let decade = 10_f64.powf(ms.max(1e-3).log10().floor());
-    [1.0, 2.0, 5.0, 10.0].into_iter().map(|step| step * decade).find(|&top| top >= ms).unwrap_or(10.0 * decade)
+    [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|step| step * decade)
+        .find(|&top| top >= ms)
+        .unwrap_or(10.0 * decade)
 }
 
 #[cfg(test)]

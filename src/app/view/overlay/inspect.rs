@@ -28,16 +28,14 @@ impl Inspector {
     /// A scene was loaded: nothing of it is changed yet.
     pub(super) fn begin(&mut self, scene: &Scene) {
         let path = scene.files.first().map(|path| path.with_extension("edited.toml")).unwrap_or_default();
-        *self = Self {
-            render: Some(scene.render.clone()),
-            path: path.display().to_string(),
-            ..Self::default()
-        };
+        *self =
+            Self { render: Some(scene.render.clone()), path: path.display().to_string(), ..Self::default() };
     }
 
     /// The picked part and its values.
     pub(super) fn show(&mut self, ui: &mut Ui, scene: &mut Scene) -> Change {
-        let Some((picked, mut item)) = self.picked.and_then(|picked| Some((picked, picked.of(scene)?))) else {
+        let Some((picked, mut item)) = self.picked.and_then(|picked| Some((picked, picked.of(scene)?)))
+        else {
             ui.weak("I picks what is under the pointer.");
             return Change::Nothing;
         };
@@ -69,12 +67,12 @@ impl Inspector {
         ui.add(TextEdit::singleline(&mut self.path).desired_width(f32::INFINITY));
         if ui.button("Save with its changes").clicked() {
             let render = self.render.as_ref().unwrap_or(&scene.render);
-            self.message = match document::save(original, &PathBuf::from(&self.path), scene, render, &self.before)
-            {
-                Ok(left_out) if left_out.is_empty() => format!("{} is written.", self.path),
-                Ok(left_out) => left_out.join("\n"),
-                Err(error) => error.to_string(),
-            };
+            self.message =
+                match document::save(original, &PathBuf::from(&self.path), scene, render, &self.before) {
+                    Ok(left_out) if left_out.is_empty() => format!("{} is written.", self.path),
+                    Ok(left_out) => left_out.join("\n"),
+                    Err(error) => error.to_string(),
+                };
         }
         ui.label(&self.message);
     }

@@ -13,6 +13,12 @@ pub(super) fn show(context: &Context, views: &Views, compare: &mut Compare, size
     if views.shown().is_none() && compare.mode == Mode::Off {
         return;
     }
+    if compare.mode == Mode::Split {
+        let rect = context.content_rect();
+        let x = rect.left() + compare.column * rect.width();
+        let painter = context.layer_painter(egui::LayerId::background());
+        painter.vline(x, rect.y_range(), (1.0, Color32::GRAY));
+    }
     Area::new(Id::unique("legend")).anchor(Align2::CENTER_BOTTOM, [0.0, -8.0]).show(context, |ui| {
         Frame::window(ui.style()).show(ui, |ui| {
             if let Some(view) = views.shown() {

@@ -33,10 +33,10 @@ use history::History;
 use inspect::Inspector;
 use paint::Textures;
 use picked::project;
-use views::{VIEWS, Views};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use views::{VIEWS, Views};
 use winit::event::{ElementState, WindowEvent};
 use winit::keyboard::KeyCode;
 use winit::window::Window;
@@ -55,6 +55,10 @@ const PASS_COLORS: [Color32; 7] = [
 /// Time between two looks at the reference.
 const LOOK: Duration = Duration::from_millis(250);
 
+/// On hot reload of shaders.
+const WATCHED: &str = "Changes in glsl/ are compiled and shown at once.";
+const NOT_WATCHED: &str = "The checkout that amas was built from is not here: shaders stay as they are.";
+
 /// Width of the panels, points.
 const WIDTH: f32 = 280.0;
 
@@ -72,6 +76,10 @@ pub(super) struct Gui {
     inspector: Inspector,
     views: Views,
     compare: Compare,
+    /// Sources of shaders are watched.
+    watched: bool,
+    /// Why shaders that changed are not used.
+    trouble: Option<String>,
     /// When egui wants to be drawn again though nothing happened.
     due: Option<Instant>,
 }
@@ -86,7 +94,8 @@ struct Tools {
 impl Gui {
     /// Whether anything is to be drawn over the picture.
     fn is_shown(&self) -> bool {
-        self.panels || self.keys || self.shows_view() || self.compare.mode != Mode::Off
+        let open = self.panels || self.keys || self.trouble.is_some();
+        open || self.shows_view() || self.compare.mode != Mode::Off
     }
 
     /// Whether a debug view is shown in the picture's place.
@@ -104,6 +113,22 @@ impl Gui {
         self.inspector.begin(scene);
         self.views.forget();
         self.compare.forget();
+    }
+
+    /// Whether there are sources of shaders to watch.
+    pub(super) fn shaders_watched(&mut self, watched: bool) {
+        self.watched = watched;
+    }
+
+    /// What came of shaders that changed.
+    pub(super) fn shaders_compiled(&mut self, made: std::result::Result<(), String>) {
+        if made.is_ok() {
+            // The overlay's own may be among them.
+            self.tools = None;
+            self.views.forget();
+            self.compare.outdate();
+        }
+        self.trouble = made.err();
     }
 
     /// Picks what is under a pixel, and opens the panels.
@@ -186,6 +211,9 @@ impl Gui {
             if self.keys {
                 keys::show(context, &mut self.keys);
             }
+            if let Some(trouble) = &self.trouble {
+                complain(context, trouble);
+            }
             legend::show(context, &self.views, &mut self.compare, size);
         });
         // Longer than a day means never.
@@ -232,6 +260,9 @@ impl Gui {
                 let areas = !scene.area_lights.is_empty();
                 section(ui, "Settings", |ui| change = settings::show(ui, &mut scene.render, areas));
                 section(ui, "Picked", |ui| change = change.max(self.inspector.show(ui, scene)));
+                section(ui, "Shaders", |ui| {
+                    ui.weak(if self.watched { WATCHED } else { NOT_WATCHED });
+                });
                 section(ui, "Save", |ui| self.inspector.save(ui, scene));
             });
         });
@@ -241,15 +272,14 @@ impl Gui {
     /// The debug views and comparisons, as the keys have them.
     fn choose(&mut self, ui: &mut Ui) {
         let mut shown = self.views.shown();
-        ComboBox::from_id_salt("view").selected_text(shown.map_or("picture", |view| VIEWS[view].name)).show_ui(
-            ui,
-            |ui| {
+        ComboBox::from_id_salt("view")
+            .selected_text(shown.map_or("picture", |view| VIEWS[view].name))
+            .show_ui(ui, |ui| {
                 ui.selectable_value(&mut shown, None, "picture");
                 for (index, view) in VIEWS.iter().enumerate() {
                     ui.selectable_value(&mut shown, Some(index), view.name);
                 }
-            },
-        );
+            });
         self.views.show(shown);
         let mut mode = self.compare.mode;
         ui.horizontal(|ui| {
@@ -309,4 +339,14 @@ impl Tools {
 
 fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
     egui::CollapsingHeader::new(title).default_open(true).show(ui, contents);
+}
+
+/// Why shaders that changed are not used.
+fn complain(context: &Context, trouble: &str) {
+    let window = egui::Window::new("Shaders").collapsible(false).default_pos([8.0, 8.0]);
+    window.show(context, |ui| {
+        ScrollArea::both().max_height(200.0).show(ui, |ui| {
+            ui.label(egui::RichText::new(trouble).monospace().color(Color32::LIGHT_RED));
+        });
+    });
 }
