@@ -10,11 +10,8 @@ use std::path::{Path, PathBuf};
 #[allow(dead_code, missing_docs, unreachable_pub, reason = "only GLSL is used here")]
 mod shared;
 
-const STAGES: [(&str, shaderc::ShaderKind, &str); 3] = [
-    ("vert", shaderc::ShaderKind::Vertex, "Vertex"),
-    ("frag", shaderc::ShaderKind::Fragment, "Fragment"),
-    ("comp", shaderc::ShaderKind::Compute, "Compute"),
-];
+#[path = "src/gpu/compile.rs"]
+mod compile;
 
 fn main() {
     if let Err(message) = compile_all() {
@@ -47,79 +44,41 @@ fn compile_all() -> Result<(), String> {
     println!("cargo:rerun-if-changed=glsl");
     write(&out.join("shared.glsl"), shared::GLSL)?;
 
-    let mut sources = Vec::new();
-    collect(Path::new("glsl"), &mut sources)?;
-    sources.sort();
+    let root = Path::new("glsl");
+    let mut names = compile::files(root)?;
+    names.retain(|name| stage(name).is_some());
     let compiler = shaderc::Compiler::new().map_err(|error| format!("shaderc: {error}"))?;
     let mut table = String::new();
-    for source in &sources {
-        let (_, kind, stage) = STAGES
-            .into_iter()
-            .find(|(extension, ..)| source.extension().is_some_and(|e| e == *extension))
-            .ok_or_else(|| format!("{}: no stage", source.display()))?;
-        let words = compile(&compiler, source, kind)?;
-        let name = constant_name(source);
-        let spirv = out.join(format!("{name}.spv"));
-        fs::write(&spirv, words).map_err(|error| format!("{}: {error}", spirv.display()))?;
-        let label = source.strip_prefix("glsl").unwrap_or(source).display().to_string();
+    for name in &names {
+        let words = compile::compile(&compiler, root, name, shared::GLSL)?;
+        let constant = constant_name(name);
+        let spirv = out.join(format!("{constant}.spv"));
+        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_ne_bytes()).collect();
+        fs::write(&spirv, bytes).map_err(|error| format!("{}: {error}", spirv.display()))?;
+        let stage = stage(name).unwrap_or_default();
         writeln!(
             table,
-            "/// `glsl/{label}`.\npub const {name}: Shader = Shader {{ name: {label:?}, stage: Stage::{stage}, \
+            "/// `glsl/{name}`.\npub const {constant}: Shader = Shader {{ name: {name:?}, stage: Stage::{stage}, \
              spirv: Words(include_bytes!({spirv:?})) }};"
         )
         .map_err(|error| error.to_string())?;
     }
-    let names: Vec<String> = sources.iter().map(|source| constant_name(source)).collect();
-    writeln!(table, "/// Every shader.\npub const ALL: &[Shader] = &[{}];", names.join(", "))
+    let constants: Vec<String> = names.iter().map(|name| constant_name(name)).collect();
+    writeln!(table, "/// Every shader.\npub const ALL: &[Shader] = &[{}];", constants.join(", "))
         .map_err(|error| error.to_string())?;
     write(&out.join("shaders.rs"), &table)
 }
 
-/// `glsl/cluster/slices.comp` → `CLUSTER_SLICES_COMP`.
-fn constant_name(source: &Path) -> String {
-    let path = source.strip_prefix("glsl").unwrap_or(source);
-    path.to_string_lossy().replace(['/', '.', '-'], "_").to_uppercase()
+/// The stage of a shader as [`shared`]'s readers call it; `None` for what shaders include.
+fn stage(name: &str) -> Option<&'static str> {
+    let stages = ["Vertex", "Fragment", "Compute"];
+    let is = |extension: &str| Path::new(name).extension().is_some_and(|found| found == extension);
+    compile::STAGES.iter().zip(stages).find(|((extension, _), _)| is(extension)).map(|(_, stage)| stage)
 }
 
-fn collect(folder: &Path, sources: &mut Vec<PathBuf>) -> Result<(), String> {
-    for entry in fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))? {
-        let path = entry.map_err(|error| error.to_string())?.path();
-        if path.is_dir() {
-            collect(&path, sources)?;
-        } else if STAGES.iter().any(|(extension, ..)| path.extension().is_some_and(|e| e == *extension)) {
-            sources.push(path);
-        }
-    }
-    Ok(())
-}
-
-fn compile(
-    compiler: &shaderc::Compiler,
-    source: &Path,
-    kind: shaderc::ShaderKind,
-) -> Result<Vec<u8>, String> {
-    let mut options = shaderc::CompileOptions::new().map_err(|error| error.to_string())?;
-    options.set_target_env(shaderc::TargetEnv::Vulkan, shaderc::EnvVersion::Vulkan1_2 as u32);
-    options.set_optimization_level(shaderc::OptimizationLevel::Performance);
-    options.set_warnings_as_errors();
-    // Names and lines survive optimisation: captures stay readable, and tests compare layouts by name.
-    options.set_generate_debug_info();
-    options.set_include_callback(|name, _, _, _| {
-        let text = if name == "shared.glsl" {
-            shared::GLSL.to_owned()
-        } else {
-            fs::read_to_string(Path::new("glsl").join(name))
-                .map_err(|error| format!("glsl/{name}: {error}"))?
-        };
-        let resolved_name =
-            if name == "shared.glsl" { "src/shared.rs".into() } else { format!("glsl/{name}") };
-        Ok(shaderc::ResolvedInclude { resolved_name, content: text })
-    });
-    let text = fs::read_to_string(source).map_err(|error| format!("{}: {error}", source.display()))?;
-    let artifact = compiler
-        .compile_into_spirv(&text, kind, &source.to_string_lossy(), "main", Some(&options))
-        .map_err(|error| error.to_string())?;
-    Ok(artifact.as_binary_u8().to_vec())
+/// `cluster/slices.comp` → `CLUSTER_SLICES_COMP`.
+fn constant_name(name: &str) -> String {
+    name.replace(['/', '.', '-'], "_").to_uppercase()
 }
 
 fn write(path: &Path, text: &str) -> Result<(), String> {

@@ -2,10 +2,14 @@
 //!
 //! prepass → cluster → resolve → forward (direct → indirect → present)
 
+mod adopt;
 mod cut;
+mod pick;
 mod results;
+mod retune;
 mod settings;
 mod timing;
+mod views;
 
 pub use settings::{FrameInputs, FrameSettings};
 pub use timing::{PassTime, Timings};
@@ -49,6 +53,8 @@ pub struct Frame {
     pass_names: Vec<&'static str>,
     samples: u32,
     slices: u32,
+    // Of the sample last rendered.
+    last: FrameConstants,
     draws: Vec<VisibleDraw>,
     luminaires: Vec<VisibleDraw>,
 }
@@ -83,6 +89,7 @@ impl Frame {
             pass_names,
             samples: 0,
             slices: 0,
+            last: FrameConstants::default(),
             draws: Vec::new(),
             luminaires: Vec::new(),
             targets,
@@ -110,6 +117,44 @@ impl Frame {
         }
     }
 
+    /// Adds the next sample to the picture: what [`Frame::render`] does at once, step by step. The first sample is number 0 of
+    /// `inputs.samples`; [`Frame::samples`] says which comes next, which is 1 where the picture had to start anew.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn refine(&mut self, inputs: &FrameInputs<'_>, index: u32) -> Result<Timings> {
+        let lights = self.move_lights(inputs.time)?;
+        let mut watch = Stopwatch::start(&self.pass_names);
+        let mut fits = self.add_sample(inputs, index, &mut watch)?;
+        while !fits {
+            watch = Stopwatch::start(&self.pass_names);
+            fits = self.add_sample(inputs, 0, &mut watch)?;
+        }
+        Ok(watch.stop().after(lights))
+    }
+
+    /// Makes the images anew for a picture of another size; pipelines stay.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] where memory is short.
+    pub fn resize(&mut self, size: [u32; 2]) -> Result<()> {
+        self.settings.size = size;
+        self.targets = Targets::new(&self.device, size, self.work.resolve)?;
+        self.prepass.resize(&self.device, &self.targets)?;
+        self.forward.resize(&self.device, &self.targets)?;
+        let now = self.lists.capacity;
+        let start = Capacity::start(tiles_of(size), self.work.lists, now.mask);
+        let capacity = Capacity { folds: now.folds, nodes: now.nodes, ..start };
+        if let Some(resolve) = &mut self.resolve {
+            resolve.resize(&self.targets);
+            resolve.grow(&self.device, &self.scene, capacity.clusters)?;
+        }
+        self.lists = ClusterTargets::new(&self.device, tiles_of(size), capacity)?;
+        self.samples = 0;
+        self.bind();
+        Ok(())
+    }
+
     /// Moves the lights that move, unless they are there already; what that took.
     fn move_lights(&self, time: f64) -> Result<Option<Timings>> {
         if !self.scene.moves() {
@@ -124,22 +169,30 @@ impl Frame {
     fn accumulate(&mut self, inputs: &FrameInputs<'_>) -> Result<Option<Timings>> {
         let mut watch = Stopwatch::start(&self.pass_names);
         for index in 0..inputs.samples {
-            self.update_constants(inputs, index)?;
-            let sample = Sample { first: index == 0, scale: inputs.exposure.exp2() / (index + 1) as f32 };
-            self.submit(sample, inputs.split, &mut watch)?;
-            watch.add_gpu(self.timestamps.intervals()?);
             inputs.progress.inc(1);
-            self.samples = index + 1;
-            self.counters = self.readback.read()?[0];
-            if self.cluster.is_some()
-                && let Some(capacity) = self.lists.capacity.grown(&self.counters)
-            {
-                self.grow(capacity)?;
+            if !self.add_sample(inputs, index, &mut watch)? {
                 inputs.progress.dec(u64::from(index) + 1);
                 return Ok(None);
             }
         }
         Ok(Some(watch.stop()))
+    }
+
+    /// Adds one sample; `false` if clusters or lists did not fit, and now have room: then the picture starts anew.
+    fn add_sample(&mut self, inputs: &FrameInputs<'_>, index: u32, watch: &mut Stopwatch) -> Result<bool> {
+        self.update_constants(inputs, index)?;
+        let sample = Sample { first: index == 0, scale: inputs.exposure.exp2() / (index + 1) as f32 };
+        self.submit(sample, inputs.split, watch)?;
+        watch.add_gpu(self.timestamps.intervals()?);
+        self.samples = index + 1;
+        self.counters = self.readback.read()?[0];
+        if self.cluster.is_some()
+            && let Some(capacity) = self.lists.capacity.grown(&self.counters)
+        {
+            self.grow(capacity)?;
+            return Ok(false);
+        }
+        Ok(true)
     }
 
     /// Makes room, and the passes that fold lists where this frame is the first to need them.
@@ -260,6 +313,7 @@ impl Frame {
         self.slices = constants.slice_count;
         self.draws = visible(&self.scene.draws, &constants);
         self.luminaires = visible(&self.scene.area.luminaires, &constants);
+        self.last = constants;
         self.constants.write(&[constants])
     }
 

@@ -2,6 +2,7 @@
 
 mod area;
 mod coincident;
+mod edit;
 mod geometry;
 mod lights;
 pub mod occluders;
@@ -19,6 +20,7 @@ use crate::scene::material::PARAMETER_COUNT;
 use crate::scene::{Luminaire as Surface, Material, Model, Parameter, Scene, Vertex};
 use crate::shared::{self, MaterialRecord};
 pub use area::{Area, Luminaire};
+pub use edit::Edit;
 use geometry::{Geometry, bounds, origin};
 use glam::Vec3;
 pub use lights::moment_row;
@@ -83,10 +85,12 @@ pub struct GpuScene {
     /// `None` where no light moves.
     moving: Option<Moving>,
     light_images: LightImages,
+    /// Variant of each material.
+    of_material: Vec<Variant>,
+    tables: Tables,
+    record_buffer: Buffer<MaterialRecord>,
     // What the sets refer to.
-    _tables: Tables,
     _textures: Textures,
-    _record_buffer: Buffer<MaterialRecord>,
     _occluders: Occluders,
 }
 
@@ -102,7 +106,9 @@ impl GpuScene {
             &[shared::frame::BINDINGS, shared::scene::BINDINGS, shared::material::BINDINGS],
         )?);
         let tables = Tables::new(device, scene)?;
-        let (variants, of_mesh) = variants(scene, &tables)?;
+        let of_material: Vec<_> =
+            scene.materials.iter().map(|material| variant(material, &tables)).collect::<Result<_>>()?;
+        let (variants, of_mesh) = variants(scene, &of_material);
         let seen = scene.area_lights.iter().map(|light| light.visible.then(|| Surface::new(light)));
         let seen: Vec<Option<Surface>> = seen.collect();
         let origin = origin(scene, &seen);
@@ -141,9 +147,10 @@ impl GpuScene {
             lights,
             area,
             layout,
-            _tables: tables,
+            of_material,
+            tables,
+            record_buffer,
             _textures: textures,
-            _record_buffer: record_buffer,
             moving: Moving::new(device, scene, origin)?,
             light_images,
             _occluders: occluders,
@@ -176,9 +183,7 @@ fn reject_unsupported(scene: &Scene) -> Result<()> {
 }
 
 /// Distinct variants, and for each mesh its own, and the one from outside if it is closed.
-fn variants(scene: &Scene, tables: &Tables) -> Result<(Vec<Variant>, Vec<MeshVariants>)> {
-    let of_material: Vec<_> =
-        scene.materials.iter().map(|material| variant(material, tables)).collect::<Result<_>>()?;
+fn variants(scene: &Scene, of_material: &[Variant]) -> (Vec<Variant>, Vec<MeshVariants>) {
     let of_mesh: Vec<_> = scene
         .meshes
         .par_iter()
@@ -197,7 +202,7 @@ fn variants(scene: &Scene, tables: &Tables) -> Result<(Vec<Variant>, Vec<MeshVar
         .iter()
         .map(|(own, outside)| MeshVariants { own: index(own), from_outside: outside.as_ref().map(index) })
         .collect();
-    Ok((distinct, indices))
+    (distinct, indices)
 }
 
 /// Indices of a mesh's variants.

@@ -183,6 +183,14 @@ shared! {
         AOV_FOLDED = 8;
         /// Estimated relative error of the cluster.
         AOV_LIGHT_ERROR = 9;
+        /// The material's colour.
+        AOV_ALBEDO = 10;
+        /// Alpha of the specular lobe.
+        AOV_ROUGHNESS = 11;
+        /// Distance along the view.
+        AOV_DEPTH = 12;
+        /// Bound of the error of the specular lobe's closed form.
+        AOV_LTC_BOUND = 13;
         /// Table of the specular lobe of area lights.
         SPEC_LTC_SPECULAR = 12;
         /// Table of the clear coat.
@@ -329,6 +337,11 @@ shared! {
             /// [`TilePairs`](super::TilePairs) per tile.
             PAIRS_TILES = 0: Storage in Compute;
         }
+        /// A texture of the window's overlay.
+        overlay = 0 {
+            /// Letters, mostly: sRGB-encoded, premultiplied with alpha.
+            OVERLAY_TEXTURE = 0: Combined in Fragment;
+        }
         /// Rows in, rows out: how tests call the library functions of the shaders.
         probe = 0 {
             /// Input rows.
@@ -425,6 +438,11 @@ shared! {
             lights: uvec2;
             /// Prepass: last word of the surface.
             surface: uint;
+        }
+        /// Push constants of the window's overlay.
+        OverlayConstants {
+            /// Clip space per point of the window, across and down.
+            clip_per_point: vec2;
         }
         /// A tile's occupied slices. Behind the tiles lie the blocks.
         Tile {

@@ -20,8 +20,8 @@ pub struct Targets {
     pub depth: Image,
     /// Scene-linear sum over samples.
     pub hdr: Image,
-    /// Display-referred picture.
-    pub ldr: Image,
+    /// Display-referred picture; a window may still read it when the targets are gone.
+    pub ldr: Arc<Image>,
     /// Cluster id per pixel.
     pub cluster_ids: Image,
     /// What the prepass notes of each pixel's surface, for shaders that have no attributes of it; a single texel where none
@@ -52,9 +52,9 @@ impl Targets {
         }
         Ok(Self {
             surface: surface_image(device, surface.then_some(size))?,
-            depth: image("depth", DEPTH_FORMAT, &[Use::DepthWrite, Use::DepthRead])?,
+            depth: image("depth", DEPTH_FORMAT, &[Use::DepthWrite, Use::DepthRead, Use::TransferRead])?,
             hdr: image("hdr", HDR_FORMAT, &hdr)?,
-            ldr: image("ldr", LDR_FORMAT, &[Use::ColorWrite, Use::TransferRead])?,
+            ldr: Arc::new(image("ldr", LDR_FORMAT, &[Use::ColorWrite, Use::TransferRead])?),
             cluster_ids,
         })
     }

@@ -11,6 +11,7 @@
 #include "bind/fragment.glsl"
 #include "lib/light.glsl"
 #include "bind/surface.glsl"
+#include "aov/material.glsl"
 
 layout(constant_id = 11) const uint AOV = AOV_POSITION;
 layout(location = 0) out vec4 value;
@@ -58,6 +59,15 @@ void main() {
         value = vec4(folded(pixel), 1.0);
     } else if (AOV == AOV_LIGHT_ERROR) {
         value = vec4(light_error(pixel), 1.0);
+    } else if (AOV == AOV_ALBEDO) {
+        value = vec4(material_color(surface_parameters()), 1.0);
+    } else if (AOV == AOV_ROUGHNESS) {
+        value = vec4(material_roughness(surface_parameters()), 1.0);
+    } else if (AOV == AOV_DEPTH) {
+        value = vec4(vec3(view_depth(frame, gl_FragCoord.z)), 1.0);
+    } else if (AOV == AOV_LTC_BOUND) {
+        vec3 wo = view_direction();
+        value = vec4(vec3(ltc_bound(surface_parameters(), dot(wo, shading_frame(wo)[2]))), 1.0);
     } else {
         value = vec4(1.0);
     }

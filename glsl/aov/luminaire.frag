@@ -16,7 +16,9 @@ void main() {
         value = vec4(normalize(gl_FrontFacing ? normal : -normal), 1.0);
     } else if (AOV == AOV_MATERIAL) {
         value = vec4(vec3(-1.0), 1.0);
-    } else if (AOV == AOV_LIGHT_COUNT) {
+    } else if (AOV == AOV_DEPTH) {
+        value = vec4(vec3(view_depth(frame, gl_FragCoord.z)), 1.0);
+    } else if (AOV == AOV_LIGHT_COUNT || AOV == AOV_ALBEDO || AOV == AOV_ROUGHNESS || AOV == AOV_LTC_BOUND) {
         value = vec4(vec3(0.0), 1.0);
     } else {
         value = vec4(1.0);

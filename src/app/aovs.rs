@@ -30,16 +30,20 @@ enum Variable {
 }
 
 /// Every variable by its name.
-const VARIABLES: [(&str, Variable); 11] = [
+const VARIABLES: [(&str, Variable); 15] = [
     ("position", Variable::Surface(Quantity::Position)),
     ("normal", Variable::Surface(Quantity::Normal)),
     ("material", Variable::Surface(Quantity::Material)),
     ("light_count", Variable::Surface(Quantity::LightCount)),
+    ("albedo", Variable::Surface(Quantity::Albedo)),
+    ("roughness", Variable::Surface(Quantity::Roughness)),
+    ("depth", Variable::Surface(Quantity::Depth)),
     ("cluster", Variable::Surface(Quantity::Cluster)),
     ("slice", Variable::Surface(Quantity::Slice)),
     ("pair_ratio", Variable::Surface(Quantity::PairRatio)),
     ("folded", Variable::Surface(Quantity::Folded)),
     ("light_error", Variable::Surface(Quantity::LightError)),
+    ("ltc_bound", Variable::Surface(Quantity::LtcBound)),
     ("direct", Variable::Direct),
     ("indirect", Variable::Indirect),
 ];
@@ -143,16 +147,11 @@ fn numbers(quantity: Quantity, &[x, y, z, there]: &[f32; 4]) -> [f32; 3] {
 
 /// The picture of a variable; says which numbers its darkest and brightest colours stand for.
 fn picture(path: &Path, quantity: Quantity, values: &[[f32; 4]]) -> Result<Vec<[u8; 3]>> {
-    let first: Vec<_> = values.iter().map(|&[x, .., there]| (there > 0.0).then_some(x)).collect();
-    match quantity {
-        Quantity::Normal => Ok(false_color::directions(values)),
-        Quantity::Material | Quantity::Cluster => Ok(false_color::indices(&first)),
-        _ => {
-            let range = false_color::range(&first);
-            print(format_args!("{}: {} (dark) to {} (bright)", path.display(), range[0], range[1]))?;
-            Ok(false_color::heat(&first, range))
-        }
+    let (colors, range) = false_color::of(quantity, values);
+    if let Some([dark, bright]) = range {
+        print(format_args!("{}: {dark} (dark) to {bright} (bright)", path.display()))?;
     }
+    Ok(colors)
 }
 
 #[cfg(test)]
@@ -161,8 +160,8 @@ mod tests {
 
     #[test]
     fn unknown_variables_are_named() {
-        let error = AovOutput::new(&("albedo".into(), "a.exr".into())).err().map(|error| error.to_string());
-        assert!(error.is_some_and(|text| text.contains("albedo") && text.contains("light_count")));
+        let error = AovOutput::new(&("colour".into(), "a.exr".into())).err().map(|error| error.to_string());
+        assert!(error.is_some_and(|text| text.contains("colour") && text.contains("light_count")));
         for (name, _) in VARIABLES {
             let output = AovOutput::new(&(name.into(), "a.png".into()));
             let numbers = ["position", "direct", "indirect"].contains(&name);

@@ -27,12 +27,25 @@ pub(super) enum Command {
   amas render scene.toml --set samples=16 --aov normal=normal.exr -o picture.png")]
     Render(RenderOptions),
     /// Show a scene in a window and fly through it
-    #[command(after_help = "Keys:
-  W A S D     forward, left, backward, right (by place on the keyboard)
+    #[command(after_help = "Keys, letters by their place on the keyboard:
+  W A S D     forward, left, backward, right
   Q E         down, up
-  mouse drag  look around
-  wheel       fly faster or slower
-  Esc         close
+  drag        look around
+  right drag  turn around the point where the drag began; also Ctrl + drag
+  wheel       fly faster or slower; two fingers on a touchpad do, too
+  pinch       nearer to and farther from what is looked at
+  1 … 9       the scene's cameras, in the file's order
+  P           walk along the camera's path, or stop
+  R           reset the camera
+  C           print the camera as TOML, and copy it to the clipboard
+  V           wait for the display's refresh, or not
+  O           panels: times, counts, settings
+  I           inspect what is under the pointer
+  F2 … F11    albedo, normal, roughness, depth, depth slice, cluster, lights evaluated, lights evaluated per useful
+              one, estimated error, bound of the closed form's error; again: the picture
+  X           beside the reference, the error against it, the picture alone
+  ?           the keys; also F1
+  Esc         stop loading; else close
 
 Example:
   amas view scene.toml --size 1280x720 --camera main")]
@@ -122,9 +135,10 @@ pub(super) struct RenderOptions {
     /// Report as JSON; its pairs.area_saved counts what the clusters' masks spared of area lights
     #[arg(long, value_name = "FILE.json")]
     pub(super) report: Option<PathBuf>,
-    /// Output variable, several times: position, normal, material (-1: a light that is seen, -2: nothing), light_count, cluster,
-    /// slice, pair_ratio (lights evaluated over those within range), folded (lights beyond the cap of the list), light_error
-    /// (estimated, relative), direct or indirect; numbers in .exr or .pfm, colours in .png
+    /// Output variable, several times: position, normal, material (-1: a light that is seen, -2: nothing), albedo, roughness
+    /// (alpha), depth (metres), light_count, cluster, slice, pair_ratio (lights evaluated over those within range), folded
+    /// (lights beyond the cap of the list), light_error (estimated, relative), ltc_bound (what an area light's closed form
+    /// may be off by), direct or indirect; numbers in .exr or .pfm, colours in .png
     #[arg(long, value_name = "NAME=FILE", value_parser = parse_pair)]
     pub(super) aov: Vec<(String, String)>,
 }
@@ -138,9 +152,18 @@ pub(super) struct ViewOptions {
     /// Camera to start from, by name [default: the first]
     #[arg(long, value_name = "NAME")]
     pub(super) camera: Option<String>,
-    /// Close after N pictures, rendered one after the other
+    /// Close after N pictures, a sample each, rendered one after the other
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) frames: Option<u32>,
+    /// A picture (.exr or .pfm) to compare with, instead of the reference
+    #[arg(long, value_name = "FILE")]
+    pub(super) compare: Option<PathBuf>,
+    /// Sources of the shaders, compiled again when they change [default: those of the checkout that amas was built from]
+    #[arg(long, value_name = "DIR")]
+    pub(super) glsl: Option<PathBuf>,
+    /// Do not wait for the display's refresh
+    #[arg(long)]
+    pub(super) no_vsync: bool,
 }
 
 #[derive(Debug, ClapArgs)]

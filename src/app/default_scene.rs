@@ -1,12 +1,9 @@
 //! The scene that is part of the program.
 
-use crate::error::Result;
-use crate::scene::{Scene, load_embedded};
+use crate::scene::Origin;
 
-/// Loads it; see `scenes/default.toml`.
-pub(super) fn load(overrides: &[(String, String)]) -> Result<Scene> {
-    load_embedded("scenes/default.toml (embedded)", TOML, FILES, overrides)
-}
+/// Where to load it from; see `scenes/default.toml`.
+pub(super) const ORIGIN: Origin<'static> = Origin::Embedded("scenes/default.toml (embedded)", TOML, FILES);
 
 const TOML: &str = include_str!("../../scenes/default.toml");
 

@@ -1,5 +1,7 @@
 //! Numbers as colours: heat maps of counts and ratios, hues of indices.
 
+use crate::passes::aov::Quantity;
+
 /// Colours of a heat map from its lower to its upper end, sRGB: the luma rises all the way, so that it reads in grey too.
 const RAMP: [[f64; 3]; 6] = [
     [0.0, 0.0, 0.0],
@@ -10,6 +12,22 @@ const RAMP: [[f64; 3]; 6] = [
     [255.0, 250.0, 200.0],
 ];
 
+/// The picture of an output variable, and the numbers that its darkest and its brightest colour stand for, where they stand
+/// for numbers.
+pub(super) fn of(quantity: Quantity, values: &[[f32; 4]]) -> (Vec<[u8; 3]>, Option<[f32; 2]>) {
+    let first = || values.iter().map(|&[x, .., there]| (there > 0.0).then_some(x)).collect::<Vec<_>>();
+    match quantity {
+        Quantity::Normal => (directions(values), None),
+        Quantity::Albedo => (colors(values), None),
+        Quantity::Material | Quantity::Cluster => (indices(&first()), None),
+        _ => {
+            let first = first();
+            let range = range(&first);
+            (heat(&first, range), Some(range))
+        }
+    }
+}
+
 /// A heat map of `values` from `range[0]` to `range[1]`, the ramp's middle where these are equal; black where there is
 /// none.
 pub(super) fn heat(values: &[Option<f32>], range: [f32; 2]) -> Vec<[u8; 3]> {
@@ -19,7 +37,7 @@ pub(super) fn heat(values: &[Option<f32>], range: [f32; 2]) -> Vec<[u8; 3]> {
 }
 
 /// Least and largest value; zeros without any.
-pub(super) fn range(values: &[Option<f32>]) -> [f32; 2] {
+fn range(values: &[Option<f32>]) -> [f32; 2] {
     let values = || values.iter().copied().flatten();
     if values().next().is_none() {
         return [0.0; 2];
@@ -36,7 +54,7 @@ fn ramp(x: f64) -> [u8; 3] {
 }
 
 /// Colours that tell indices apart; black where there is none.
-pub(super) fn indices(values: &[Option<f32>]) -> Vec<[u8; 3]> {
+fn indices(values: &[Option<f32>]) -> Vec<[u8; 3]> {
     let color = |value: f32| {
         // Fibonacci hashing: neighbouring indices get distant hues.
         let hash = (value as i64 as u32).wrapping_add(1).wrapping_mul(0x9e37_79b9);
@@ -47,9 +65,19 @@ pub(super) fn indices(values: &[Option<f32>]) -> Vec<[u8; 3]> {
 }
 
 /// Directions, each coordinate from −1 to 1; black where there is none.
-pub(super) fn directions(values: &[[f32; 4]]) -> Vec<[u8; 3]> {
+fn directions(values: &[[f32; 4]]) -> Vec<[u8; 3]> {
     let byte = |v: f32| ((v * 0.5 + 0.5).clamp(0.0, 1.0) * 255.0).round() as u8;
     values.iter().map(|&[x, y, z, there]| if there > 0.0 { [x, y, z].map(byte) } else { [0; 3] }).collect()
+}
+
+/// Scene-linear colours, sRGB-encoded; black where there is none.
+fn colors(values: &[[f32; 4]]) -> Vec<[u8; 3]> {
+    let byte = |x: f32| {
+        let x = x.clamp(0.0, 1.0);
+        let encoded = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
+        (encoded * 255.0).round() as u8
+    };
+    values.iter().map(|&[r, g, b, there]| if there > 0.0 { [r, g, b].map(byte) } else { [0; 3] }).collect()
 }
 
 #[cfg(test)]
@@ -64,6 +92,15 @@ mod tests {
         assert!(map.windows(2).all(|pair| luma(&pair[0]) < luma(&pair[1])));
         assert_eq!((map[0], map[100]), ([0, 0, 0], [255, 250, 200]));
         assert_eq!(heat(&[None, Some(3.0)], [3.0, 3.0]), [[0; 3], [181, 50, 91]]);
+    }
+
+    /// 0.5 → 188: IEC 61966-2-1.
+    #[test]
+    fn colours_are_encoded() {
+        assert_eq!(
+            colors(&[[0.0, 0.5, 2.0, 1.0], [1.0; 4], [1.0, 1.0, 1.0, 0.0]]),
+            [[0, 188, 255], [255; 3], [0; 3]]
+        );
     }
 
     #[test]

@@ -20,9 +20,10 @@ mod terminal;
 mod view;
 
 use crate::error::{Error, Result};
-use crate::scene::{self, Camera, Scene};
+use crate::scene::{Camera, Origin, Scene};
 use args::{Args, Command, SceneOptions};
 use clap::Parser;
+use indicatif::ProgressBar;
 use std::process::ExitCode;
 
 /// Frames a second along a camera's path, and of lights that move.
@@ -59,12 +60,12 @@ pub fn main() -> ExitCode {
 
 /// Loads the scene that the options name, or the embedded one, and says what loading repaired.
 fn load_scene(options: &SceneOptions) -> Result<Scene> {
-    let mut overrides = options.set.clone();
-    overrides.extend(options.size.map(|[width, height]| ("size".into(), format!("[{width}, {height}]"))));
-    let scene = match &options.scene {
-        Some(path) => scene::load(path, &overrides),
-        None => default_scene::load(&overrides),
-    };
+    load_watched(options, &ProgressBar::hidden())
+}
+
+/// As [`load_scene`]; see [`Origin::load`] for `progress`.
+fn load_watched(options: &SceneOptions, progress: &ProgressBar) -> Result<Scene> {
+    let scene = options.origin().load(&options.overrides(), progress);
     let scene = scene.map_err(|error| of_size(error, options.size))?;
     for warning in &scene.warnings {
         terminal::complain(format_args!("warning: {warning}"));
@@ -81,6 +82,18 @@ fn of_size(error: Error, size: Option<[u32; 2]>) -> Error {
             Error::Usage { cause, remedy }
         }
         (error, _) => error,
+    }
+}
+
+impl SceneOptions {
+    fn origin(&self) -> Origin<'_> {
+        self.scene.as_deref().map_or(default_scene::ORIGIN, Origin::File)
+    }
+
+    /// With the size, as it were one of them.
+    fn overrides(&self) -> Vec<(String, String)> {
+        let size = self.size.map(|[width, height]| ("size".into(), format!("[{width}, {height}]")));
+        self.set.iter().cloned().chain(size).collect()
     }
 }
 
@@ -104,10 +117,15 @@ fn in_scene<T>(options: &SceneOptions, result: Result<T>) -> Result<T> {
 
 /// The camera of that name, or the first.
 fn camera<'a>(scene: &'a Scene, name: Option<&str>) -> Result<&'a Camera> {
+    camera_index(scene, name).map(|index| &scene.cameras[index])
+}
+
+/// As [`camera`]: which of the scene's cameras it is.
+fn camera_index(scene: &Scene, name: Option<&str>) -> Result<usize> {
     let names = || scene.cameras.iter().map(|camera| camera.name.as_str()).collect::<Vec<_>>().join(", ");
     let found = match name {
-        Some(name) => scene.cameras.iter().find(|camera| camera.name == name),
-        None => scene.cameras.first(),
+        Some(name) => scene.cameras.iter().position(|camera| camera.name == name),
+        None => (!scene.cameras.is_empty()).then_some(0),
     };
     found.ok_or_else(|| {
         Error::usage(

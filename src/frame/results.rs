@@ -1,15 +1,16 @@
 //! What can be read from a frame once it is rendered.
 
-use super::{Frame, pass_inputs, tiles, tiles_of};
+use super::{Frame, FrameSettings, tiles, tiles_of};
 use crate::error::Result;
 use crate::gpu::{Image, Use};
 use crate::image::HdrImage;
-use crate::passes::aov::{Aov, Quantity};
+use crate::passes::aov::Quantity;
 use crate::passes::cluster::ClusterTargets;
 use crate::passes::floors::{FloorPass, Floors};
 use crate::passes::pairs::{PairCount, PairPass};
 use crate::shared::Counters;
 use crate::targets::Targets;
+use std::sync::Arc;
 
 impl Frame {
     /// The scene-linear picture.
@@ -32,8 +33,20 @@ impl Frame {
 
     /// The display-referred picture on the device, in use [`Use::TransferRead`].
     #[must_use]
-    pub fn picture(&self) -> &Image {
+    pub fn picture(&self) -> &Arc<Image> {
         &self.targets.ldr
+    }
+
+    /// Samples that the picture has.
+    #[must_use]
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// What the frame was made for.
+    #[must_use]
+    pub fn settings(&self) -> &FrameSettings {
+        &self.settings
     }
 
     /// One quantity of the surface last rendered, without jitter if the picture had one sample.
@@ -41,12 +54,8 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn aov(&self, quantity: Quantity) -> Result<Vec<[f32; 4]>> {
-        let inputs = pass_inputs(&self.device, &self.scene, &self.settings);
-        let aov = Aov::new(&inputs, &self.targets, quantity)?;
-        self.device.run("aov", |cmd| {
-            aov.record(cmd, &self.view());
-            Ok(())
-        })?;
+        let aov = self.aov_pass(quantity)?;
+        self.draw_aov(&aov)?;
         let mut values = aov.fetch()?;
         if quantity == Quantity::Position {
             let origin = self.scene.origin.to_array();

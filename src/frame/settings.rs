@@ -6,7 +6,7 @@ use indicatif::ProgressBar;
 use crate::scene::{Camera, Projection, RenderSettings};
 
 /// What a frame is made for; changing it means a new [`Frame`](super::Frame).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameSettings {
     /// Pixels across and down.
     pub size: [u32; 2],

@@ -35,6 +35,8 @@ pub enum Use {
     ColorWrite,
     /// Colour attachment that a fragment shader reads as its input.
     InputRead,
+    /// Image of a window, free to be copied to.
+    Acquired,
     /// Shown in a window.
     Present,
 }
@@ -92,6 +94,8 @@ impl Use {
                 A::from_raw(A::INPUT_ATTACHMENT_READ.as_raw() | A::COLOR_ATTACHMENT_WRITE.as_raw()),
                 L::SHADER_READ_ONLY_OPTIMAL,
             ),
+            // The stage at which the copy waits for the window.
+            Self::Acquired => (S::TRANSFER, A::empty(), L::UNDEFINED),
             // Presenting synchronises by itself.
             Self::Present => (S::BOTTOM_OF_PIPE, A::empty(), L::PRESENT_SRC_KHR),
         }

@@ -21,6 +21,8 @@ pub enum BufferUse {
     Vertex,
     /// Indices.
     Index,
+    /// Vertices or indices that the host writes for every picture.
+    Stream,
     /// Staging towards the device.
     Upload,
     /// Staging towards the host.
@@ -35,13 +37,14 @@ impl BufferUse {
             Self::Storage => vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDIRECT_BUFFER,
             Self::Vertex => vk::BufferUsageFlags::VERTEX_BUFFER,
             Self::Index => vk::BufferUsageFlags::INDEX_BUFFER,
+            Self::Stream => vk::BufferUsageFlags::VERTEX_BUFFER | vk::BufferUsageFlags::INDEX_BUFFER,
             Self::Upload | Self::Readback => vk::BufferUsageFlags::empty(),
         }
     }
 
     fn location(self) -> MemoryLocation {
         match self {
-            Self::Uniform | Self::Upload => MemoryLocation::CpuToGpu,
+            Self::Uniform | Self::Stream | Self::Upload => MemoryLocation::CpuToGpu,
             Self::Readback => MemoryLocation::GpuToCpu,
             Self::Storage | Self::Vertex | Self::Index => MemoryLocation::GpuOnly,
         }

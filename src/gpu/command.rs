@@ -7,7 +7,6 @@ use super::pipeline::{ComputePipeline, GraphicsPipeline};
 use super::render_pass::{Framebuffer, RenderPass};
 use super::{Buffer, Called, Use};
 use crate::error::Result;
-use crate::scene::Vertex;
 use ash::vk;
 use bytemuck::Pod;
 use std::sync::Arc;
@@ -131,7 +130,7 @@ impl Commands {
     }
 
     /// Binds vertices and indices.
-    pub fn bind_triangles(&mut self, vertices: &Buffer<Vertex>, triangles: &Buffer<[u32; 3]>) {
+    pub fn bind_triangles<V: Pod>(&mut self, vertices: &Buffer<V>, triangles: &Buffer<[u32; 3]>) {
         // SAFETY: the buffers are alive until the work is waited for.
         unsafe { self.device.raw.cmd_bind_vertex_buffers(self.raw, 0, &[vertices.raw], &[0]) };
         // SAFETY: as above.
@@ -142,6 +141,16 @@ impl Commands {
     pub fn draw_triangles(&mut self, first: u32, count: u32) {
         // SAFETY: the range lies in the index buffer, as the scene's draws say.
         unsafe { self.device.raw.cmd_draw_indexed(self.raw, 3 * count, 1, 3 * first, 0, 0) };
+    }
+
+    /// Keeps what follows within a rectangle of the target: its corner, and its size.
+    pub fn clip(&mut self, [x, y]: [u32; 2], [width, height]: [u32; 2]) {
+        let area = vk::Rect2D {
+            offset: vk::Offset2D { x: x as i32, y: y as i32 },
+            extent: vk::Extent2D { width, height },
+        };
+        // SAFETY: the scissor is dynamic in every pipeline; offsets below 2³¹ are not negative.
+        unsafe { self.device.raw.cmd_set_scissor(self.raw, 0, &[area]) };
     }
 
     /// Draws one triangle over the whole target.

@@ -4,11 +4,15 @@ use super::allocation::Memory;
 use super::candidate::{Candidate, Presentation, candidates, choose};
 use super::instance::Instance;
 use super::requirements::Report;
-use super::{Called, Commands};
+use super::{Called, Commands, Shader};
 use crate::error::{Error, Result};
 use ash::vk;
+use std::collections::HashMap;
 use std::ffi::CStr;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
+
+/// SPIR-V in the place of what the program was built with, by the names of the shaders.
+pub type Replaced = HashMap<&'static str, Vec<u32>>;
 
 /// How to open a device.
 #[derive(Clone, Debug, Default)]
@@ -47,7 +51,10 @@ pub struct Device {
     pub(super) physical: vk::PhysicalDevice,
     info: DeviceInfo,
     queue: vk::Queue,
+    pub(super) family: u32,
     pool: vk::CommandPool,
+    // Shaders that changed since the program was built, by their names.
+    replaced: RwLock<Replaced>,
     // Queue and pool are used by one thread at a time.
     turn: Mutex<()>,
     // Shared with the surface, which may be destroyed later than the device.
@@ -107,11 +114,7 @@ impl Device {
             unsafe { instance.raw.create_device(chosen.physical, &info, None) }.called("vkCreateDevice")?;
         // SAFETY: queue 0 of the family was asked for above.
         let queue = unsafe { raw.get_device_queue(chosen.family, 0) };
-        let pool_info = vk::CommandPoolCreateInfo::default()
-            .queue_family_index(chosen.family)
-            .flags(vk::CommandPoolCreateFlags::TRANSIENT);
-        // SAFETY: as above.
-        let pool = unsafe { raw.create_command_pool(&pool_info, None) }.called("vkCreateCommandPool")?;
+        let pool = command_pool(&raw, chosen.family)?;
         let debug = instance.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw));
         let memory = Memory::new(&instance.raw, &raw, chosen.physical)?;
         Ok(Self {
@@ -124,7 +127,9 @@ impl Device {
             physical: chosen.physical,
             info: chosen.info,
             queue,
+            family: chosen.family,
             pool,
+            replaced: RwLock::default(),
             turn: Mutex::new(()),
             instance,
             raw,
@@ -141,6 +146,12 @@ impl Device {
     #[must_use]
     pub fn is_cpu(&self) -> bool {
         self.info.kind == "cpu"
+    }
+
+    /// Texels along a side of the largest texture.
+    #[must_use]
+    pub fn largest_image(&self) -> u32 {
+        self.limits.max_image_dimension2_d
     }
 
     /// Largest number of device bytes in use at once so far.
@@ -198,11 +209,35 @@ impl Device {
         unsafe { self.raw.queue_wait_idle(self.queue) }.called("vkQueueWaitIdle")
     }
 
+    /// Has pipelines that are made from now on use other shaders; what they were to use before.
+    #[cfg(feature = "viewer")]
+    pub fn replace_shaders(&self, replaced: Replaced) -> Replaced {
+        std::mem::replace(&mut self.replaced.write().unwrap_or_else(PoisonError::into_inner), replaced)
+    }
+
+    /// The words of a shader, as built or replaced.
+    pub(super) fn words(&self, shader: Shader) -> Vec<u32> {
+        let replaced = self.replaced.read().unwrap_or_else(PoisonError::into_inner);
+        replaced.get(shader.name).cloned().unwrap_or_else(|| shader.words())
+    }
+
     /// Hands the queue to `call`, which no other thread uses meanwhile.
     #[cfg(feature = "viewer")]
     pub(super) fn with_queue<T>(&self, call: impl FnOnce(vk::Queue) -> T) -> T {
         let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
         call(self.queue)
+    }
+
+    /// A pool whose commands are recorded again and again.
+    #[cfg(feature = "viewer")]
+    pub(super) fn command_pool(&self) -> Result<vk::CommandPool> {
+        command_pool(&self.raw, self.family)
+    }
+
+    #[cfg(feature = "viewer")]
+    pub(super) fn semaphore(&self) -> Result<vk::Semaphore, vk::Result> {
+        // SAFETY: the device is alive.
+        unsafe { self.raw.create_semaphore(&vk::SemaphoreCreateInfo::default(), None) }
     }
 
     #[cfg(feature = "viewer")]
@@ -235,6 +270,14 @@ impl Device {
         // SAFETY: the handle is alive. A name that cannot be set is no reason to stop.
         let _ = unsafe { debug.set_debug_utils_object_name(&info) };
     }
+}
+
+fn command_pool(raw: &ash::Device, family: u32) -> Result<vk::CommandPool> {
+    let info = vk::CommandPoolCreateInfo::default()
+        .queue_family_index(family)
+        .flags(vk::CommandPoolCreateFlags::TRANSIENT);
+    // SAFETY: the device is alive, and was made with a queue of the family.
+    unsafe { raw.create_command_pool(&info, None) }.called("vkCreateCommandPool")
 }
 
 impl Drop for Device {

@@ -199,11 +199,33 @@ impl Image {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn fetch<T: Pod>(&self, before: Use, after: Use) -> Result<Vec<T>> {
         let texels = self.size[0] as usize * self.size[1] as usize * self.layers as usize;
+        self.fetch_region(self.region(0, self.size[1], 0), texels, before, after)
+    }
+
+    /// As [`Image::fetch`], one texel of the first layer.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn fetch_texel<T: Pod>(&self, at: [u32; 2], before: Use, after: Use) -> Result<T> {
+        let [x, y] = [0, 1].map(|axis| at[axis].min(self.size[axis] - 1) as i32);
+        let mut region = self.region(0, 1, 0);
+        region.image_offset = vk::Offset3D { x, y, z: 0 };
+        region.image_extent.width = 1;
+        region.image_subresource.layer_count = 1;
+        self.fetch_region(region, 1, before, after).map(|texels| texels[0])
+    }
+
+    fn fetch_region<T: Pod>(
+        &self,
+        region: vk::BufferImageCopy,
+        texels: usize,
+        before: Use,
+        after: Use,
+    ) -> Result<Vec<T>> {
         let staging = Buffer::<T>::new(&self.device, "readback", BufferUse::Readback, texels)?;
         self.device.run("read image", |cmd| {
             cmd.transition(self, before, Use::TransferRead);
-            let region = self.region(0, self.size[1], 0);
-            // SAFETY: the staging buffer holds every texel of the level; `T` is as large as the format's texel.
+            // SAFETY: the staging buffer holds every texel of the region; `T` is as large as the format's texel.
             unsafe {
                 self.device.raw.cmd_copy_image_to_buffer(
                     cmd.raw,
@@ -253,7 +275,9 @@ fn require_room(device: &Device, name: &str, info: &vk::ImageCreateInfo<'_>) -> 
 
 fn usage(used: Use) -> vk::ImageUsageFlags {
     match used {
-        Use::Nothing | Use::HostRead | Use::IndirectRead | Use::Present => vk::ImageUsageFlags::empty(),
+        Use::Nothing | Use::HostRead | Use::IndirectRead | Use::Acquired | Use::Present => {
+            vk::ImageUsageFlags::empty()
+        }
         Use::TransferWrite => vk::ImageUsageFlags::TRANSFER_DST,
         Use::TransferRead => vk::ImageUsageFlags::TRANSFER_SRC,
         Use::ComputeWrite | Use::StorageRead => vk::ImageUsageFlags::STORAGE,
@@ -269,6 +293,31 @@ impl Commands {
     /// Moves an image from one use to the next; from [`Use::Nothing`] its contents are lost.
     pub fn transition(&mut self, image: &Image, before: Use, after: Use) {
         self.transition_raw((image.raw, image.everything()), before, after);
+    }
+
+    /// Copies the pixels of columns `columns` between two images of one size and format, in uses [`Use::TransferRead`] and
+    /// [`Use::TransferWrite`].
+    pub fn copy_columns(&mut self, from: &Image, to: &Image, columns: std::ops::Range<u32>) {
+        if columns.is_empty() {
+            return;
+        }
+        let layers = vk::ImageSubresourceLayers {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            mip_level: 0,
+            base_array_layer: 0,
+            layer_count: 1,
+        };
+        let offset = vk::Offset3D { x: columns.start as i32, y: 0, z: 0 };
+        let region = vk::ImageCopy {
+            src_subresource: layers,
+            src_offset: offset,
+            dst_subresource: layers,
+            dst_offset: offset,
+            extent: vk::Extent3D { width: columns.end - columns.start, height: from.size[1], depth: 1 },
+        };
+        let [before, after] = [Use::TransferRead, Use::TransferWrite].map(Use::layout);
+        // SAFETY: both images are alive and in these layouts, and have the columns.
+        unsafe { self.device.raw.cmd_copy_image(self.raw, from.raw, before, to.raw, after, &[region]) };
     }
 
     /// Clears a colour image, in use [`Use::TransferWrite`], to 0.

@@ -3,7 +3,8 @@
 //! What it promises: objects free themselves in `Drop`, buffers are typed, an image's aspect follows from its format, raw
 //! handles do not leave this module. What it does not, as marking all of Vulkan `unsafe` would only be noise: that
 //! whatever is recorded outlives the recording ([`Device::run`] submits and waits before it returns, so an object made
-//! outside its closure does, and one made and dropped inside does not), and that layouts, bounds and hazards are right.
+//! outside its closure does, and one made and dropped inside does not; pictures on their way to a window are held until they
+//! have landed), and that layouts, bounds and hazards are right.
 //! The validation layers check the latter in every GPU test.
 
 mod allocation;
@@ -11,8 +12,12 @@ mod barrier;
 mod buffer;
 mod candidate;
 mod command;
+#[cfg(feature = "viewer")]
+pub(crate) mod compile;
 mod descriptor;
 mod device;
+#[cfg(feature = "viewer")]
+mod flight;
 mod image;
 mod instance;
 mod pipeline;
@@ -30,10 +35,10 @@ pub use barrier::Use;
 pub use buffer::{Buffer, BufferUse};
 pub use command::Commands;
 pub use descriptor::{DescriptorSet, DescriptorSets, PipelineLayout, SetLayout};
-pub use device::{Device, DeviceInfo, Options};
+pub use device::{Device, DeviceInfo, Options, Replaced};
 pub use image::{Image, ImageDescription};
 pub use pipeline::{
-    Blend, ComputePipeline, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, Specialization,
+    Blend, ComputePipeline, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, Specialization, Vertices,
 };
 pub use query::Timestamps;
 pub use render_pass::{Attachment, Framebuffer, Outside, RenderPass, Subpass};

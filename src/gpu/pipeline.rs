@@ -58,6 +58,8 @@ pub enum Blend {
     Replace,
     /// Added.
     Add,
+    /// Laid over it: colours are premultiplied with their alpha.
+    Over,
 }
 
 /// Which faces are dropped.
@@ -67,6 +69,17 @@ pub enum Cull {
     None,
     /// Clockwise ones.
     Back,
+}
+
+/// What a vertex shader reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Vertices {
+    /// Nothing: a triangle over the whole screen.
+    None,
+    /// [`Vertex`] buffers.
+    Surface,
+    /// Points in the window: position and texture coordinate, two floats each, and four bytes of colour.
+    Window,
 }
 
 /// A graphics pipeline.
@@ -79,8 +92,8 @@ pub struct GraphicsDescription<'a> {
     pub fragment: Option<Shader>,
     /// Constants of both shaders.
     pub specialization: &'a Specialization,
-    /// Reads [`Vertex`] buffers, or nothing (a triangle over the whole screen).
-    pub vertices: bool,
+    /// What its vertex shader reads.
+    pub vertices: Vertices,
     /// Depth test.
     pub depth: DepthTest,
     /// Blending of the one colour attachment, if the subpass has one.
@@ -147,14 +160,15 @@ impl GraphicsPipeline {
         let constants = vk::SpecializationInfo::default().map_entries(&entries).data(&data);
         let stages: Vec<_> =
             std::iter::once(&vertex).chain(&fragment).map(|module| module.stage(&constants)).collect();
+        let (stride, attributes) = description.vertices.layout();
         let binding = [vk::VertexInputBindingDescription {
             binding: 0,
-            stride: size_of::<Vertex>() as u32,
+            stride: stride as u32,
             input_rate: vk::VertexInputRate::VERTEX,
         }];
         let mut input = vk::PipelineVertexInputStateCreateInfo::default();
-        if description.vertices {
-            input = input.vertex_binding_descriptions(&binding).vertex_attribute_descriptions(&ATTRIBUTES);
+        if !attributes.is_empty() {
+            input = input.vertex_binding_descriptions(&binding).vertex_attribute_descriptions(attributes);
         }
         let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
             .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
@@ -195,6 +209,23 @@ const ATTRIBUTES: [vk::VertexInputAttributeDescription; 4] = [
     attribute(3, vk::Format::R32G32_SFLOAT, offset_of!(Vertex, uv)),
 ];
 
+const WINDOW_ATTRIBUTES: [vk::VertexInputAttributeDescription; 3] = [
+    attribute(0, vk::Format::R32G32_SFLOAT, 0),
+    attribute(1, vk::Format::R32G32_SFLOAT, 8),
+    attribute(2, vk::Format::R8G8B8A8_UNORM, 16),
+];
+
+impl Vertices {
+    /// Bytes of a vertex, and what is in them.
+    fn layout(self) -> (usize, &'static [vk::VertexInputAttributeDescription]) {
+        match self {
+            Self::None => (0, &[]),
+            Self::Surface => (size_of::<Vertex>(), &ATTRIBUTES),
+            Self::Window => (20, &WINDOW_ATTRIBUTES),
+        }
+    }
+}
+
 const fn attribute(location: u32, format: vk::Format, offset: usize) -> vk::VertexInputAttributeDescription {
     vk::VertexInputAttributeDescription { location, binding: 0, format, offset: offset as u32 }
 }
@@ -232,6 +263,12 @@ fn blend_state(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
             .dst_color_blend_factor(vk::BlendFactor::ONE)
             .src_alpha_blend_factor(vk::BlendFactor::ONE)
             .dst_alpha_blend_factor(vk::BlendFactor::ONE),
+        Blend::Over => state
+            .blend_enable(true)
+            .src_color_blend_factor(vk::BlendFactor::ONE)
+            .dst_color_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
+            .src_alpha_blend_factor(vk::BlendFactor::ONE)
+            .dst_alpha_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA),
     }
 }
 
@@ -258,7 +295,7 @@ struct Module {
 
 impl Module {
     fn new(device: &Arc<Device>, shader: Shader) -> Result<Self> {
-        let words = shader.words();
+        let words = device.words(shader);
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
         // SAFETY: the words are SPIR-V that shaderc made for Vulkan 1.2.
         let raw = unsafe { device.raw.create_shader_module(&info, None) }.called("vkCreateShaderModule")?;

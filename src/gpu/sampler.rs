@@ -1,4 +1,4 @@
-//! The samplers of material textures.
+//! Samplers.
 
 use super::Called;
 use super::device::Device;
@@ -6,7 +6,7 @@ use crate::error::Result;
 use ash::vk;
 use std::sync::Arc;
 
-/// Trilinear, repeating, anisotropic where the device can.
+/// How a texture is filtered.
 pub struct Sampler {
     pub(super) raw: vk::Sampler,
     device: Arc<Device>,
@@ -16,7 +16,7 @@ pub struct Sampler {
 const ANISOTROPY: f32 = 8.0;
 
 impl Sampler {
-    /// The one sampler of material textures.
+    /// The one sampler of material textures: trilinear, repeating, anisotropic where the device can.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
@@ -32,9 +32,27 @@ impl Sampler {
         if let Some(most) = device.max_anisotropy.filter(|_| !device.is_cpu()) {
             info = info.anisotropy_enable(true).max_anisotropy(ANISOTROPY.min(most));
         }
+        Self::create(device, "trilinear repeat", &info)
+    }
+
+    /// Bilinear, up to the edge: that of the window's overlay.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    #[cfg(feature = "viewer")]
+    pub fn clamped(device: &Arc<Device>) -> Result<Self> {
+        let info = vk::SamplerCreateInfo::default()
+            .mag_filter(vk::Filter::LINEAR)
+            .min_filter(vk::Filter::LINEAR)
+            .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+            .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE);
+        Self::create(device, "bilinear clamped", &info)
+    }
+
+    fn create(device: &Arc<Device>, name: &str, info: &vk::SamplerCreateInfo<'_>) -> Result<Self> {
         // SAFETY: anisotropy is on only where the feature is.
-        let raw = unsafe { device.raw.create_sampler(&info, None) }.called("vkCreateSampler")?;
-        device.name(raw, "trilinear repeat");
+        let raw = unsafe { device.raw.create_sampler(info, None) }.called("vkCreateSampler")?;
+        device.name(raw, name);
         Ok(Self { raw, device: device.clone() })
     }
 }

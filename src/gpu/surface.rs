@@ -23,8 +23,9 @@ pub(super) struct Surface {
     pub(super) loader: khr::surface::Instance,
     // The surface is destroyed before these three, which it was made from.
     instance: Arc<Instance>,
-    _window: Arc<Window>,
-    _display: OwnedDisplayHandle,
+    window: Arc<Window>,
+    display: OwnedDisplayHandle,
+    wayland: bool,
 }
 
 impl Device {
@@ -60,25 +61,53 @@ impl Surface {
             raw,
             loader: khr::surface::Instance::new(&instance.entry, &instance.raw),
             instance,
-            _window: window,
-            _display: display,
+            wayland: matches!(display_handle, RawDisplayHandle::Wayland(_)),
+            window,
+            display,
         })
     }
 
     /// A format that the present pass's bytes can be shown in; `None` where there is none.
-    pub(super) fn format(&self, physical: vk::PhysicalDevice) -> Result<Option<vk::SurfaceFormatKHR>> {
+    pub(super) fn format(
+        &self,
+        physical: vk::PhysicalDevice,
+    ) -> Result<Option<vk::SurfaceFormatKHR>, vk::Result> {
         // SAFETY: the device presents to the surface.
-        let found = unsafe { self.loader.get_physical_device_surface_formats(physical, self.raw) }
-            .called("vkGetPhysicalDeviceSurfaceFormatsKHR")?;
+        let found = unsafe { self.loader.get_physical_device_surface_formats(physical, self.raw) }?;
         Ok(found.into_iter().find(|offer| {
             FORMATS.contains(&offer.format) && offer.color_space == vk::ColorSpaceKHR::SRGB_NONLINEAR
         }))
     }
 
-    pub(super) fn capabilities(&self, physical: vk::PhysicalDevice) -> Result<vk::SurfaceCapabilitiesKHR> {
+    pub(super) fn capabilities(
+        &self,
+        physical: vk::PhysicalDevice,
+    ) -> Result<vk::SurfaceCapabilitiesKHR, vk::Result> {
         // SAFETY: the device presents to the surface.
         unsafe { self.loader.get_physical_device_surface_capabilities(physical, self.raw) }
-            .called("vkGetPhysicalDeviceSurfaceCapabilitiesKHR")
+    }
+
+    /// How pictures follow one another: with `vsync` at the display's refresh, else as soon as they are there.
+    pub(super) fn present_mode(
+        &self,
+        physical: vk::PhysicalDevice,
+        vsync: bool,
+    ) -> Result<vk::PresentModeKHR, vk::Result> {
+        // SAFETY: the device presents to the surface.
+        let offered = unsafe { self.loader.get_physical_device_surface_present_modes(physical, self.raw) }?;
+        Ok(present_mode(&offered, vsync, self.wayland))
+    }
+
+    /// The surface of the same window once more, after it was lost.
+    pub(super) fn again(&self, device: &Device) -> Result<Self> {
+        let surface = Self::new(self.instance.clone(), self.window.clone(), self.display.clone())?;
+        if surface.presents(device.physical, device.family) {
+            return Ok(surface);
+        }
+        Err(Error::NoDevice {
+            cause: format!("the window was lost, and {} does not present to it any more", device.info().name),
+            remedy: "start amas again".into(),
+        })
     }
 
     fn has_swapchains(&self, physical: vk::PhysicalDevice) -> bool {
@@ -170,6 +199,19 @@ pub(super) fn image_count(capabilities: &vk::SurfaceCapabilitiesKHR) -> u32 {
     }
 }
 
+/// On Wayland, pictures wait for the window's frame events before they are rendered. There FIFO would wait once more, in the
+/// driver, and for as long as the window is hidden.
+fn present_mode(offered: &[vk::PresentModeKHR], vsync: bool, wayland: bool) -> vk::PresentModeKHR {
+    use vk::PresentModeKHR as Mode;
+    let wanted: &[Mode] = match (vsync, wayland) {
+        (true, false) => &[],
+        (_, true) => &[Mode::MAILBOX],
+        (false, false) => &[Mode::MAILBOX, Mode::IMMEDIATE],
+    };
+    // FIFO is everywhere.
+    wanted.iter().copied().find(|mode| offered.contains(mode)).unwrap_or(Mode::FIFO)
+}
+
 /// Opaque where the surface can; otherwise whatever it does.
 pub(super) fn composite_alpha(capabilities: &vk::SurfaceCapabilitiesKHR) -> vk::CompositeAlphaFlagsKHR {
     use vk::CompositeAlphaFlagsKHR as Alpha;
@@ -208,5 +250,16 @@ mod tests {
         assert_eq!(image_count(&capabilities(640)), 3);
         let alpha = composite_alpha(&capabilities(640));
         assert_eq!(alpha, vk::CompositeAlphaFlagsKHR::INHERIT);
+    }
+
+    #[test]
+    fn no_window_waits_for_the_display_without_need() {
+        use vk::PresentModeKHR as Mode;
+        let all = [Mode::IMMEDIATE, Mode::MAILBOX, Mode::FIFO];
+        assert_eq!(present_mode(&all, true, false), Mode::FIFO);
+        assert_eq!(present_mode(&all, false, false), Mode::MAILBOX);
+        assert_eq!(present_mode(&[Mode::FIFO, Mode::IMMEDIATE], false, false), Mode::IMMEDIATE);
+        assert_eq!(present_mode(&all, true, true), Mode::MAILBOX);
+        assert_eq!(present_mode(&[Mode::FIFO], false, true), Mode::FIFO);
     }
 }

@@ -40,6 +40,9 @@ pub struct Area {
     /// Those that are seen: variants by [`Luminaire`], materials are lights.
     pub luminaires: Vec<Draw>,
     texels: Image,
+    /// Of the texels: across, down, layers.
+    extent: [u32; 3],
+    shadows: bool,
 }
 
 impl Area {
@@ -53,46 +56,73 @@ impl Area {
         luminaires: Vec<Draw>,
         shadows: bool,
     ) -> Result<Self> {
-        let mut texels = lights.texels();
-        let (width, most) = (1 << AREA_WIDTH_LOG2, 1 << AREA_HEIGHT_LOG2);
-        let rows = texels.len().div_ceil(width).max(1);
-        let layers = rows.div_ceil(most);
-        let height = if layers > 1 { most } else { rows };
-        let width = if texels.is_empty() { 1 } else { width };
-        texels.resize(layers * height * width, [0; 4]);
+        let (texels, [width, height, layers]) = padded(lights);
         let image = Image::new(
             device,
             &ImageDescription {
                 name: "area lights",
                 format: Format::R32G32B32A32_UINT,
-                size: [width as u32, height as u32],
-                layers: Some(layers as u32),
+                size: [width, height],
+                layers: Some(layers),
                 mips: 1,
                 uses: &[Use::TransferWrite, Use::Texture],
             },
         )?;
         image.upload(&[&texels], Use::Texture)?;
-        let kind = |wanted| move |record: &AreaRecord| record.kind & ((1 << AREA_KIND_BITS) - 1) == wanted;
-        let flag = |wanted| move |record: &AreaRecord| record.kind & wanted != 0;
-        let specialization = vec![
-            (shared::SPEC_SHADOWS, u32::from(shadows)),
-            (shared::SPEC_POLYGONS, u32::from(lights.records.iter().any(kind(shared::AREA_POLYGON)))),
-            (shared::SPEC_ELLIPSES, u32::from(lights.records.iter().any(kind(shared::AREA_ELLIPSE)))),
-            (shared::SPEC_LINES, u32::from(lights.records.iter().any(kind(shared::AREA_LINE)))),
-            (shared::SPEC_TEXTURED_LIGHTS, u32::from(lights.records.iter().any(flag(shared::AREA_TEXTURED)))),
-            (
-                shared::SPEC_TWO_SIDED_LIGHTS,
-                u32::from(lights.records.iter().any(flag(shared::AREA_TWO_SIDED))),
-            ),
-        ];
         const { assert!(58_200 > 3 * (MOST_VERTICES * 5 / 4) * 12 * (9 + 4 + 1) + 2 * MOST_VERTICES) };
         let worst = lights.records.iter().map(|record| iterations(record, shadows)).max();
         let per_draw = (MAX_ITERATIONS / worst.unwrap_or(1)).max(1);
-        Ok(Self { count: lights.records.len() as u32, per_draw, specialization, luminaires, texels: image })
+        Ok(Self {
+            count: lights.records.len() as u32,
+            per_draw,
+            specialization: specialization(&lights.records, shadows),
+            luminaires,
+            texels: image,
+            extent: [width, height, layers],
+            shadows,
+        })
+    }
+
+    /// Uploads lights of other radiance; `false` where more than that is different.
+    pub(super) fn adopt(&mut self, lights: &AreaLights) -> Result<bool> {
+        let (texels, extent) = padded(lights);
+        let same = lights.records.len() as u32 == self.count
+            && extent == self.extent
+            && specialization(&lights.records, self.shadows) == self.specialization;
+        if same {
+            self.texels.upload(&[&texels], Use::Texture)?;
+        }
+        Ok(same)
     }
 
     /// Puts them into the scene's set.
     pub fn bind(&self, scene: DescriptorSet<'_>) {
         scene.image(shared::scene::SCENE_AREA_LIGHTS, &self.texels, Use::Texture);
     }
+}
+
+/// The lights' texels in whole layers: a row at least, a single texel where there are no lights.
+fn padded(lights: &AreaLights) -> (Vec<[u32; 4]>, [u32; 3]) {
+    let mut texels = lights.texels();
+    let (width, most) = (1 << AREA_WIDTH_LOG2, 1 << AREA_HEIGHT_LOG2);
+    let rows = texels.len().div_ceil(width).max(1);
+    let layers = rows.div_ceil(most);
+    let height = if layers > 1 { most } else { rows };
+    let width = if texels.is_empty() { 1 } else { width };
+    texels.resize(layers * height * width, [0; 4]);
+    (texels, [width, height, layers].map(|side| side as u32))
+}
+
+fn specialization(records: &[AreaRecord], shadows: bool) -> Vec<(u32, u32)> {
+    let kind =
+        |wanted| u32::from(records.iter().any(|record| record.kind & ((1 << AREA_KIND_BITS) - 1) == wanted));
+    let flag = |wanted| u32::from(records.iter().any(|record| record.kind & wanted != 0));
+    vec![
+        (shared::SPEC_SHADOWS, u32::from(shadows)),
+        (shared::SPEC_POLYGONS, kind(shared::AREA_POLYGON)),
+        (shared::SPEC_ELLIPSES, kind(shared::AREA_ELLIPSE)),
+        (shared::SPEC_LINES, kind(shared::AREA_LINE)),
+        (shared::SPEC_TEXTURED_LIGHTS, flag(shared::AREA_TEXTURED)),
+        (shared::SPEC_TWO_SIDED_LIGHTS, flag(shared::AREA_TWO_SIDED)),
+    ]
 }

@@ -57,15 +57,20 @@ impl LightImages {
                 Use::Texture,
             )?,
         };
+        images.upload(device, tree, Use::Nothing)?;
+        Ok(images)
+    }
+
+    /// Uploads as many lights and nodes as the images were made for.
+    pub(super) fn upload(&self, device: &Arc<Device>, tree: &LightTree, before: Use) -> Result<()> {
         let mut staging = Staging::new(device, tree.lights.len())?;
         staging.write_powers(tree.lights.iter())?;
-        images.upload_powers(&staging, Use::Nothing)?;
+        self.upload_powers(&staging, before)?;
         for (texel, light) in staging.lights()?.iter_mut().zip(&tree.lights) {
             *texel = place_texel(light.position, light.range.unwrap_or(f32::MAX));
         }
-        images.upload_places(&staging)?;
-        images.upload_nodes(&tree.nodes, &tree.moments)?;
-        Ok(images)
+        self.upload_places(&staging)?;
+        self.upload_nodes(&tree.nodes, &tree.moments)
     }
 
     fn upload_places(&self, staging: &Staging) -> Result<()> {

@@ -35,6 +35,15 @@ pub enum Quantity {
     Folded = shared::AOV_FOLDED,
     /// Estimated relative error of the pixel's cluster, from folded lists and cuts.
     LightError = shared::AOV_LIGHT_ERROR,
+    /// Colour of the material: what its diffuse part reflects; of metal, what it reflects at normal incidence.
+    Albedo = shared::AOV_ALBEDO,
+    /// Alpha of the specular lobe: its mean over the axes, then along tangent and bitangent. 1 where there is no such lobe.
+    Roughness = shared::AOV_ROUGHNESS,
+    /// Distance along the view, metres.
+    Depth = shared::AOV_DEPTH,
+    /// How far the transformed cosine of the specular lobe is from it at most, in total variation, as a share of the lobe:
+    /// what area lights' closed form may be off by, and quadrature may not. 0 without such a lobe or an area light.
+    LtcBound = shared::AOV_LTC_BOUND,
     /// How often the pixel is shaded.
     Coverage = shared::AOV_COVERAGE,
 }
@@ -108,5 +117,13 @@ impl Aov {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn fetch(&self) -> Result<Vec<[f32; 4]>> {
         self.image.fetch(Use::TransferRead, Use::TransferRead)
+    }
+
+    /// The values at a pixel.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn texel(&self, pixel: [u32; 2]) -> Result<[f32; 4]> {
+        self.image.fetch_texel(pixel, Use::TransferRead, Use::TransferRead)
     }
 }

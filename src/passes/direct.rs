@@ -9,7 +9,7 @@ use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
 use crate::gpu::{
     Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass, Specialization,
-    shaders,
+    Vertices, shaders,
 };
 use crate::shared;
 use std::ops::Range;
@@ -54,7 +54,7 @@ impl Direct {
                     vertex: shaders::PRESENT_FULLSCREEN_VERT,
                     fragment: Some(shaders::DIRECT_BACKGROUND_FRAG),
                     specialization: &Specialization::default(),
-                    vertices: false,
+                    vertices: Vertices::None,
                     // The triangle lies at depth 0: it passes where the prepass left none.
                     depth: DepthTest::Equal,
                     blend: Some(Blend::Add),

@@ -7,16 +7,17 @@ use super::indirect::Indirect;
 use super::present::Present;
 use super::{PassInputs, View};
 use crate::error::Result;
-use crate::gpu::{Attachment, Commands, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use};
+use crate::gpu::{Attachment, Commands, Device, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use};
 use crate::scene::settings::Tonemap;
 use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, LDR_FORMAT, Targets};
+use std::sync::Arc;
 
 const HDR: u32 = 0;
 const LDR: u32 = 1;
 const DEPTH: u32 = 2;
 
 /// What the forward pass has to do for a scene; nothing else is compiled or recorded.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work {
     /// Point lights evaluated one by one.
     pub unranged: bool,
@@ -66,8 +67,7 @@ impl Forward {
             if work.resolve { [Use::ComputeWrite; 2] } else { [Use::Nothing, Use::TransferRead] }
                 .map(|hdr| render_pass(inputs, work, hdr));
         let (first, further) = (first?, further?);
-        let framebuffer =
-            Framebuffer::new(inputs.device, &first, &[&targets.hdr, &targets.ldr, &targets.depth])?;
+        let framebuffer = framebuffer(inputs.device, &first, targets)?;
         let indirect = work
             .indirect
             .then(|| Indirect::new(inputs, work.resolve, work.folded, (&first, 1)))
@@ -81,6 +81,25 @@ impl Forward {
             further,
             framebuffer,
         })
+    }
+
+    /// Changes the tone curve.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn set_tonemap(&mut self, inputs: &PassInputs<'_>, tonemap: Tonemap) -> Result<()> {
+        let last = if self.indirect.is_some() { 2 } else { 1 };
+        self.present = Present::new(inputs, tonemap, (&self.first, last))?;
+        Ok(())
+    }
+
+    /// Binds other images.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn resize(&mut self, device: &Arc<Device>, targets: &Targets) -> Result<()> {
+        self.framebuffer = framebuffer(device, &self.first, targets)?;
+        Ok(())
     }
 
     /// Adds one sample's radiance; the picture is the sum times `scale`. Timestamp `stamp` and those behind it follow
@@ -119,6 +138,10 @@ pub struct Sample {
     pub first: bool,
     /// Factor on the sum: exposure over the number of samples so far.
     pub scale: f32,
+}
+
+fn framebuffer(device: &Arc<Device>, pass: &RenderPass, targets: &Targets) -> Result<Framebuffer> {
+    Framebuffer::new(device, pass, &[&targets.hdr, &targets.ldr, &targets.depth])
 }
 
 fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<RenderPass> {

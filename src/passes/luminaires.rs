@@ -4,7 +4,7 @@ use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
     Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass, Shader,
-    Specialization, shaders,
+    Specialization, Vertices, shaders,
 };
 use crate::gpu_scene::Luminaire;
 use crate::shared::{self, DrawConstants};
@@ -49,7 +49,7 @@ impl Luminaires {
                     vertex: shaders::PREPASS_SURFACE_VERT,
                     fragment,
                     specialization: &specialization,
-                    vertices: true,
+                    vertices: Vertices::Surface,
                     depth,
                     blend,
                     cull,

@@ -5,11 +5,15 @@
 
 pub mod aov;
 pub mod cluster;
+#[cfg(feature = "viewer")]
+pub mod develop;
 pub mod direct;
 pub mod floors;
 pub mod forward;
 pub mod indirect;
 mod luminaires;
+#[cfg(feature = "viewer")]
+pub mod overlay;
 pub mod pairs;
 pub mod prepass;
 pub mod present;
@@ -20,7 +24,7 @@ use crate::draws::VisibleDraw;
 use crate::error::Result;
 use crate::gpu::{
     Blend, Commands, DepthTest, DescriptorSet, Device, GraphicsDescription, GraphicsPipeline, RenderPass,
-    Shader, shaders,
+    Shader, Vertices, shaders,
 };
 use crate::gpu_scene::GpuScene;
 use crate::shared::{self, DrawConstants};
@@ -79,7 +83,7 @@ impl SurfacePipelines {
                     vertex: shaders::PREPASS_SURFACE_VERT,
                     fragment: Some(fragment),
                     specialization: &specialization,
-                    vertices: true,
+                    vertices: Vertices::Surface,
                     depth: DepthTest::Equal,
                     blend: Some(blend),
                     cull: variant.cull(),

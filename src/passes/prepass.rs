@@ -7,16 +7,19 @@ use super::luminaires::Luminaires;
 use super::{PassInputs, View, draw_scene};
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, Blend, Commands, DepthTest, Framebuffer, GraphicsDescription, GraphicsPipeline, Outside,
-    RenderPass, Subpass, Use, shaders,
+    Attachment, Blend, Commands, DepthTest, Device, Framebuffer, GraphicsDescription, GraphicsPipeline,
+    Outside, RenderPass, Subpass, Use, Vertices, shaders,
 };
 use crate::gpu_scene::Variant;
 use crate::targets::{DEPTH_FORMAT, SURFACE_FORMAT, Targets};
+use std::sync::Arc;
 
 /// The depth prepass.
 pub struct Prepass {
     pass: RenderPass,
     framebuffer: Framebuffer,
+    // Whether the surface image is written.
+    surface: bool,
     // By variant.
     pipelines: Vec<GraphicsPipeline>,
     luminaires: Option<Luminaires>,
@@ -29,9 +32,7 @@ impl Prepass {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>, targets: &Targets, surface: bool) -> Result<Self> {
         let pass = render_pass(inputs, surface)?;
-        let images = [&targets.depth, &targets.surface];
-        let images = if surface { &images } else { &images[..1] };
-        let framebuffer = Framebuffer::new(inputs.device, &pass, images)?;
+        let framebuffer = framebuffer(inputs.device, &pass, targets, surface)?;
         let fragment = |variant: &Variant| match surface {
             true => Some(shaders::PREPASS_SURFACE_FRAG),
             false => variant.masked.then_some(shaders::PREPASS_MASK_FRAG),
@@ -45,7 +46,7 @@ impl Prepass {
                     vertex: shaders::PREPASS_SURFACE_VERT,
                     fragment: fragment(variant),
                     specialization: &variant.specialization,
-                    vertices: true,
+                    vertices: Vertices::Surface,
                     depth: DepthTest::WriteNearest,
                     blend: surface.then_some(Blend::Replace),
                     cull: variant.cull(),
@@ -57,7 +58,16 @@ impl Prepass {
         let pipelines = inputs.scene.variants.iter().map(pipeline).collect::<Result<_>>()?;
         let seen = !inputs.scene.area.luminaires.is_empty();
         let luminaires = seen.then(|| Luminaires::prepass(inputs, &pass, surface)).transpose()?;
-        Ok(Self { pass, framebuffer, pipelines, luminaires })
+        Ok(Self { pass, framebuffer, surface, pipelines, luminaires })
+    }
+
+    /// Binds other images.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn resize(&mut self, device: &Arc<Device>, targets: &Targets) -> Result<()> {
+        self.framebuffer = framebuffer(device, &self.pass, targets, self.surface)?;
+        Ok(())
     }
 
     /// Draws the scene's depth, and its surfaces.
@@ -71,6 +81,16 @@ impl Prepass {
             cmd.end_pass();
         });
     }
+}
+
+fn framebuffer(
+    device: &Arc<Device>,
+    pass: &RenderPass,
+    targets: &Targets,
+    surface: bool,
+) -> Result<Framebuffer> {
+    let images = [&targets.depth, &targets.surface];
+    Framebuffer::new(device, pass, if surface { &images } else { &images[..1] })
 }
 
 fn render_pass(inputs: &PassInputs<'_>, surface: bool) -> Result<RenderPass> {

@@ -4,7 +4,7 @@ use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
     Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass, Specialization,
-    shaders,
+    Vertices, shaders,
 };
 use crate::scene::settings::Tonemap;
 use crate::shared::{self, DrawConstants};
@@ -31,7 +31,7 @@ impl Present {
                 vertex: shaders::PRESENT_FULLSCREEN_VERT,
                 fragment: Some(shaders::PRESENT_PRESENT_FRAG),
                 specialization: &Specialization::default().with(shared::SPEC_TONEMAP, curve),
-                vertices: false,
+                vertices: Vertices::None,
                 depth: DepthTest::Off,
                 blend: Some(Blend::Replace),
                 cull: Cull::None,

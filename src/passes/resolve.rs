@@ -32,7 +32,7 @@ pub struct Resolve {
     many: Vec<Vec<ComputePipeline>>,
     set: DescriptorSets,
     work: Buffer<u32>,
-    _materials: Image,
+    materials: Image,
 }
 
 impl Resolve {
@@ -63,16 +63,29 @@ impl Resolve {
         let materials = material_records(device, &scene.records)?;
         let set = layout.allocate(shared::resolve::SET, 1)?;
         set.get(0).image(shared::resolve::RESOLVE_MATERIALS, &materials, Use::Texture);
-        set.get(0).image(shared::resolve::RESOLVE_HDR, &targets.hdr, Use::ComputeWrite);
         let resolve = Self {
             gather: ComputePipeline::new(device, &layout, shaders::RESOLVE_GATHER_COMP, &base)?,
             many: many.collect::<Result<_>>()?,
             set,
             work: work(device, scene, clusters)?,
-            _materials: materials,
+            materials,
         };
         resolve.set.get(0).buffer(shared::resolve::RESOLVE_WORK, &resolve.work);
+        resolve.resize(targets);
         Ok(resolve)
+    }
+
+    /// Binds another picture.
+    pub fn resize(&self, targets: &Targets) {
+        self.set.get(0).image(shared::resolve::RESOLVE_HDR, &targets.hdr, Use::ComputeWrite);
+    }
+
+    /// Takes other constants of the same materials.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn set_materials(&self, records: &[MaterialRecord]) -> Result<()> {
+        upload_records(&self.materials, records)
     }
 
     /// Makes room for the work of more clusters.
@@ -115,8 +128,6 @@ fn work(device: &Arc<Device>, scene: &GpuScene, clusters: u32) -> Result<Buffer<
 fn material_records(device: &Arc<Device>, records: &[MaterialRecord]) -> Result<Image> {
     let across = 1 << shared::MATERIALS_PER_ROW_LOG2;
     let rows = records.len().div_ceil(across).max(1);
-    let mut texels = records.to_vec();
-    texels.resize(rows * across, MaterialRecord::default());
     let width = (across as u32) << shared::MATERIAL_RECORD_LOG2;
     let image = Image::new(
         device,
@@ -129,6 +140,14 @@ fn material_records(device: &Arc<Device>, records: &[MaterialRecord]) -> Result<
             uses: &[Use::TransferWrite, Use::Texture],
         },
     )?;
-    image.upload(&[bytemuck::cast_slice::<_, [f32; 4]>(&texels)], Use::Texture)?;
+    upload_records(&image, records)?;
     Ok(image)
+}
+
+/// The records, padded to whole rows of the image.
+fn upload_records(image: &Image, records: &[MaterialRecord]) -> Result<()> {
+    let mut texels = records.to_vec();
+    let rows = image.size()[1] as usize;
+    texels.resize(rows << shared::MATERIALS_PER_ROW_LOG2, MaterialRecord::default());
+    image.upload(&[bytemuck::cast_slice::<_, [f32; 4]>(&texels)], Use::Texture)
 }

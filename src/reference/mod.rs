@@ -17,4 +17,4 @@ mod texture;
 mod tree;
 pub mod visibility;
 
-pub use render::{Integrator, Options, Rendered, render};
+pub use render::{Integrator, Options, Oracle, Rendered, render};

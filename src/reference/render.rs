@@ -79,19 +79,11 @@ pub struct Rendered {
 /// # Errors
 /// [`Error::Usage`] for an empty size, no samples or no paths.
 pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rendered> {
-    check(options)?;
-    let world = World {
-        scene,
-        geometry: Geometry::new(scene),
-        points: PointLights::new(&scene.point_lights),
-        emitters: scene.area_lights.iter().map(|l| Emitter::new(l, &scene.textures)).collect(),
-        options,
-        tolerance: options.tolerance * f64::from(options.spp).sqrt(),
-    };
+    let oracle = Oracle::new(scene, camera, options)?;
     let [width, height] = options.size;
     let bar = progress_bar(u64::from(height), options.progress);
     let row = |y: u32| {
-        let row: Vec<_> = (0..width).map(|x| world.pixel(camera, x, y)).collect();
+        let row: Vec<_> = (0..width).map(|x| oracle.estimate(x, y)).collect();
         bar.inc(1);
         row
     };
@@ -103,6 +95,41 @@ pub fn render(scene: &Scene, camera: &Camera, options: &Options) -> Result<Rende
         pixels: pixels.iter().flatten().map(|e| channel(e).as_vec3().to_array()).collect(),
     };
     Ok(Rendered { image: picture(|e| e.value), standard_error: picture(|e| e.standard_error) })
+}
+
+/// A picture of which any pixel can be asked for, in any order.
+pub struct Oracle<'a> {
+    world: World<'a>,
+    camera: &'a Camera,
+}
+
+impl<'a> Oracle<'a> {
+    /// Makes ready what every pixel needs; see [`render`].
+    ///
+    /// # Errors
+    /// As [`render`].
+    pub fn new(scene: &'a Scene, camera: &'a Camera, options: &Options) -> Result<Self> {
+        check(options)?;
+        let world = World {
+            scene,
+            geometry: Geometry::new(scene),
+            points: PointLights::new(&scene.point_lights),
+            emitters: scene.area_lights.iter().map(|l| Emitter::new(l, &scene.textures)).collect(),
+            options: *options,
+            tolerance: options.tolerance * f64::from(options.spp).sqrt(),
+        };
+        Ok(Self { world, camera })
+    }
+
+    /// Scene-linear radiance of a pixel.
+    #[must_use]
+    pub fn pixel(&self, x: u32, y: u32) -> [f32; 3] {
+        self.estimate(x, y).value.as_vec3().to_array()
+    }
+
+    fn estimate(&self, x: u32, y: u32) -> Estimate {
+        self.world.pixel(self.camera, x, y)
+    }
 }
 
 fn check(options: &Options) -> Result<()> {
@@ -132,13 +159,13 @@ struct World<'a> {
     geometry: Geometry<'a>,
     points: PointLights,
     emitters: Vec<Emitter<'a>>,
-    options: &'a Options,
+    options: Options,
     tolerance: f64,
 }
 
 impl World<'_> {
     fn pixel(&self, camera: &Camera, x: u32, y: u32) -> Estimate {
-        let options = self.options;
+        let options = &self.options;
         let seed = hash(&[options.seed, u64::from(x), u64::from(y)]);
         let (left, top) = (f64::from(x), f64::from(y));
         if options.spp == 1 {
@@ -179,7 +206,7 @@ impl World<'_> {
     }
 
     fn paths(&self, occluders: &Occluders, ray: &Ray, hit: &Hit, seed: u64) -> Estimate {
-        let Options { paths, bounces, .. } = *self.options;
+        let Options { paths, bounces, .. } = self.options;
         let transport = Transport { scene: self.scene, occluders, points: &self.points, bounces };
         let mut random = Random::new(seed);
         area::mean(&(0..paths).map(|_| transport.radiance(ray, hit, &mut random)).collect::<Vec<_>>())

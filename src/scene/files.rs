@@ -1,22 +1,45 @@
 //! Where a scene's files come from: the disk, or a table in the program.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// The files that a scene names, by paths relative to the scene file.
 pub(super) enum Files<'a> {
     /// Below the folder of the scene file.
-    Disk(PathBuf),
+    Disk(Folder),
     /// Names and contents, for a scene that is part of the program.
     Embedded(&'a [(&'a str, &'a [u8])]),
 }
 
+/// A folder, and what was read in it.
+pub(super) struct Folder {
+    path: PathBuf,
+    read: RefCell<Vec<PathBuf>>,
+}
+
 impl<'a> Files<'a> {
+    /// The files below a folder.
+    pub(super) fn below(path: PathBuf) -> Self {
+        Self::Disk(Folder { path, read: RefCell::default() })
+    }
+
+    /// Every file of the disk that was read so far, once.
+    pub(super) fn names(&self) -> Vec<PathBuf> {
+        let mut names = match self {
+            Self::Disk(folder) => folder.read.borrow().clone(),
+            Self::Embedded(_) => Vec::new(),
+        };
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+
     /// The path under which messages name `path`.
     pub(super) fn display(&self, path: &str) -> PathBuf {
         match self {
-            Self::Disk(folder) => folder.join(path),
+            Self::Disk(folder) => folder.path.join(path),
             Self::Embedded(_) => PathBuf::from(path),
         }
     }
@@ -24,7 +47,11 @@ impl<'a> Files<'a> {
     /// The bytes of `path`.
     pub(super) fn read(&self, path: &str) -> io::Result<Cow<'a, [u8]>> {
         match self {
-            Self::Disk(folder) => std::fs::read(folder.join(path)).map(Cow::Owned),
+            Self::Disk(folder) => {
+                let path = folder.path.join(path);
+                folder.read.borrow_mut().push(path.clone());
+                std::fs::read(path).map(Cow::Owned)
+            }
             Self::Embedded(files) => {
                 let found = files.iter().find(|(name, _)| *name == path.trim_start_matches("./"));
                 found.map(|(_, bytes)| Cow::Borrowed(*bytes)).ok_or_else(|| io::ErrorKind::NotFound.into())
@@ -34,7 +61,7 @@ impl<'a> Files<'a> {
 
     fn exists(&self, path: &str) -> bool {
         match self {
-            Self::Disk(folder) => folder.join(path).is_file(),
+            Self::Disk(folder) => folder.path.join(path).is_file(),
             Self::Embedded(_) => self.read(path).is_ok(),
         }
     }

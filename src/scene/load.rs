@@ -5,60 +5,130 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use indicatif::ProgressBar;
 use toml::de::DeTable;
 
-use super::Scene;
 use super::bind::Library;
 use super::decode::{Textures, Use};
 use super::files::Files;
 use super::material::{Material, Model, Parameter};
 use super::obj::{self, Obj};
-use super::parse::{Source, Value, camera, light, material, mesh, render};
+use super::parse::{Source, Table, Value, camera, light, material, mesh, render};
+use super::{RenderSettings, Scene, studio};
 use crate::error::{Error, Result};
+use crate::image::extension;
 
-/// Loads the scene file at `path` (TOML, UTF-8) with everything it names. `overrides` are pairs of a key of
-/// `[render]`, with or without `render.`, and a TOML value, as `--set` takes them.
+/// Where a scene comes from.
+#[derive(Clone, Copy, Debug)]
+pub enum Origin<'a> {
+    /// A scene file (TOML, UTF-8); or, by its extension, an OBJ file, which gets a camera and lights of its own.
+    File(&'a Path),
+    /// Part of the program: what messages call it, its text, and whatever it names by relative path.
+    Embedded(&'a str, &'a str, &'a [(&'a str, &'a [u8])]),
+}
+
+/// Loads the scene file at `path` with everything it names. `overrides` are pairs of a key of `[render]`, with or without
+/// `render.`, and a TOML value, as `--set` takes them.
 ///
 /// # Errors
-/// [`Error::Input`] with file, line, cause and remedy if a file is missing, damaged or breaks a rule of the
-/// format; [`Error::Usage`] if an override does.
+/// As [`Origin::load`].
 pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Scene> {
-    let bytes = std::fs::read(path).map_err(|error| {
-        Error::input(path, None, format!("cannot read the scene: {error}"), "check the path and its rights")
-    })?;
-    let text = std::str::from_utf8(&bytes).map_err(|error| {
-        let before = bytes.iter().take(error.valid_up_to()).filter(|byte| **byte == b'\n').count();
-        Error::input(path, 1 + before, "the scene is not UTF-8 text", "save it as UTF-8")
-    })?;
-    let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
-    read(path, text, &Files::Disk(folder), overrides)
+    Origin::File(path).load(overrides, &ProgressBar::hidden())
 }
 
 /// Loads a scene that is part of the program: `toml` is its text, `files` holds whatever it names by relative
 /// path, and messages call it `name`. See [`load`] for `overrides`.
 ///
 /// # Errors
-/// As [`load`].
+/// As [`Origin::load`].
 pub fn load_embedded(
     name: &str,
     toml: &str,
     files: &[(&str, &[u8])],
     overrides: &[(String, String)],
 ) -> Result<Scene> {
-    read(Path::new(name), toml, &Files::Embedded(files), overrides)
+    Origin::Embedded(name, toml, files).load(overrides, &ProgressBar::hidden())
 }
 
-fn read(path: &Path, text: &str, files: &Files, overrides: &[(String, String)]) -> Result<Scene> {
+impl Origin<'_> {
+    /// Loads the scene; see [`load`] for `overrides`. `progress` advances by one for each material, mesh and light, its length
+    /// grows by their number, and once it is finished or abandoned from outside, loading ends.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with file, line, cause and remedy if a file is missing, damaged or breaks a rule of the
+    /// format; [`Error::Usage`] if an override does, or if loading was ended from outside.
+    pub fn load(self, overrides: &[(String, String)], progress: &ProgressBar) -> Result<Scene> {
+        match self {
+            Self::Embedded(name, text, files) => {
+                read(Path::new(name), text, &Files::Embedded(files), overrides, progress)
+            }
+            Self::File(path) => {
+                let files = Files::below(path.parent().map_or_else(PathBuf::new, Path::to_path_buf));
+                let mut scene = if extension(path) == "obj" {
+                    let mut scene = read(path, &studio::around(path), &files, overrides, progress)?;
+                    studio::furnish(&mut scene);
+                    scene
+                } else {
+                    read(path, &text(path)?, &files, overrides, progress)?
+                };
+                scene.files = std::iter::once(path.to_path_buf()).chain(files.names()).collect();
+                Ok(scene)
+            }
+        }
+    }
+
+    /// `[render]` alone, without the files that the scene names.
+    ///
+    /// # Errors
+    /// As [`Origin::load`], as far as it is read.
+    pub fn settings(self, overrides: &[(String, String)]) -> Result<RenderSettings> {
+        let (path, text) = match self {
+            Self::File(path) if extension(path) == "obj" => (path, Cow::Owned(studio::around(path))),
+            Self::File(path) => (path, Cow::Owned(text(path)?)),
+            Self::Embedded(name, text, _) => (Path::new(name), Cow::Borrowed(text)),
+        };
+        let source = Source::file(path, text.trim_start_matches('\u{feff}'));
+        let document = DeTable::parse(source.text()).map_err(|error| source.syntax(&error))?;
+        settings(&source.root(&document), path, overrides)
+    }
+}
+
+fn text(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(|error| {
+        Error::input(path, None, format!("cannot read the scene: {error}"), "check the path and its rights")
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let before = error.as_bytes().iter().take(valid).filter(|byte| **byte == b'\n').count();
+        Error::input(path, 1 + before, "the scene is not UTF-8 text", "save it as UTF-8")
+    })
+}
+
+fn settings(root: &Table, path: &Path, overrides: &[(String, String)]) -> Result<RenderSettings> {
+    let mut settings = render::settings(root)?;
+    for (key, value) in overrides {
+        render::set(&mut settings, path, key, value)?;
+    }
+    Ok(settings)
+}
+
+fn read(
+    path: &Path,
+    text: &str,
+    files: &Files,
+    overrides: &[(String, String)],
+    progress: &ProgressBar,
+) -> Result<Scene> {
     let source = Source::file(path, text.trim_start_matches('\u{feff}'));
     let document = DeTable::parse(source.text()).map_err(|error| source.syntax(&error))?;
     let root = source.root(&document);
     root.allow(&["render", "camera", "material", "mesh", "light"])?;
-    let mut loader = Loader::new(files);
-    loader.scene.render = render::settings(&root)?;
-    for (key, value) in overrides {
-        render::set(&mut loader.scene.render, path, key, value)?;
-    }
+    let mut loader = Loader::new(files, progress);
+    loader.scene.render = settings(&root, path, overrides)?;
     loader.scene.cameras = camera::cameras(&root)?;
+    for section in ["material", "light", "mesh"] {
+        progress.inc_length(root.tables(section)?.len() as u64);
+    }
     material::materials(&mut loader, &root)?;
     light::lights(&mut loader, &root)?;
     loader.seal_names();
@@ -69,6 +139,7 @@ fn read(path: &Path, text: &str, files: &Files, overrides: &[(String, String)]) 
 /// The scene under construction, and what has been read for it.
 pub(super) struct Loader<'a> {
     pub(super) files: &'a Files<'a>,
+    progress: &'a ProgressBar,
     pub(super) scene: Scene,
     pub(super) textures: Textures<'a>,
     /// `[[material]]` by name; the names of MTL materials are not among them.
@@ -83,9 +154,10 @@ pub(super) struct Loader<'a> {
 }
 
 impl<'a> Loader<'a> {
-    fn new(files: &'a Files<'a>) -> Self {
+    fn new(files: &'a Files<'a>, progress: &'a ProgressBar) -> Self {
         Self {
             files,
+            progress,
             scene: Scene::default(),
             textures: Textures::new(files),
             named: HashMap::new(),
@@ -95,6 +167,15 @@ impl<'a> Loader<'a> {
             from_mtl: HashMap::new(),
             fallback: None,
         }
+    }
+
+    /// A material, mesh or light is read; an error where nobody waits for the scene any more.
+    pub(super) fn advance(&self) -> Result<()> {
+        if self.progress.is_finished() {
+            return Err(Error::usage("loading was cancelled", "load the scene again"));
+        }
+        self.progress.inc(1);
+        Ok(())
     }
 
     /// From now on new materials are not found by name.

@@ -25,19 +25,24 @@ mod points;
 mod presets;
 pub mod settings;
 mod shapes;
+mod studio;
 mod tangents;
 pub mod texture;
 mod triangulate;
+pub mod write;
 
 pub use camera::{Camera, KeyFrame, Projection};
 pub use light::{AreaLight, AreaShape, PointLight};
-pub use load::{load, load_embedded};
+pub use load::{Origin, load, load_embedded};
 pub use luminaire::Luminaire;
 pub use material::{Material, Model, Parameter};
 pub use mesh::{Mesh, Vertex};
 pub use motion::Motion;
 pub use settings::RenderSettings;
 pub use texture::{Texels, Texture};
+
+use std::ops::Range;
+use std::path::PathBuf;
 
 /// A whole scene, in world space, validated: every index is in range and every number finite.
 #[derive(Clone, Debug, Default)]
@@ -54,10 +59,14 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Point lights, in file order, where they are at time 0.
     pub point_lights: Vec<PointLight>,
+    /// The point lights of each `[[light]]` that has any, in file order.
+    pub point_groups: Vec<Range<usize>>,
     /// Groups of them that move.
     pub motions: Vec<Motion>,
     /// Area lights, in file order.
     pub area_lights: Vec<AreaLight>,
+    /// Every file that was read for it, the scene file first; none of a scene that is part of the program.
+    pub files: Vec<PathBuf>,
     /// What loading noticed and repaired, as sentences for the user.
     pub warnings: Vec<String>,
 }

@@ -1,109 +1,106 @@
 //! `amas view`: the same frame in a window.
 //!
-//! A picture is rendered when there is something new to see: with one sample a pixel while the camera moves, with the
-//! scene's samples once it rests.
+//! The window's thread handles input and renders a sample of the picture at a time, when there is something new to see:
+//! one through the pixels' centres while the view moves, the scene's samples, one after the other, once it rests. Files
+//! are read, scenes uploaded and pipelines compiled on other threads, whose results arrive as [`Event`]s.
 
+mod display;
 mod fly;
+mod input;
+mod loading;
+mod overlay;
+mod picture;
+mod pilot;
+mod shaders;
+mod signals;
 mod stage;
+mod waiting;
 
 use super::args::ViewOptions;
-use super::{camera, in_scene, load_scene};
-use crate::error::{Error, Result};
-use crate::gpu::Shown;
-use crate::scene::Scene;
-use fly::Fly;
+use super::{in_scene, report};
+use crate::error::Result;
+use crate::gpu::Replaced;
+use input::Pointer;
+use loading::{Loading, Progress};
+use overlay::{Change, Gui};
+use picture::Picture;
+use pilot::Pilot;
 use stage::Stage;
-use std::panic;
-use std::time::Instant;
+use std::time::{Duration, Instant};
+use waiting::Waiting;
 use winit::application::ApplicationHandler;
-use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, EventLoop};
-use winit::keyboard::{KeyCode, PhysicalKey};
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::WindowId;
 
-/// Pixels that a touchpad scrolls for a notch of a wheel.
-const PIXELS_PER_NOTCH: f64 = 40.0;
+/// Time between two looks at how far loading is.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// What other threads tell the window's.
+enum Event {
+    /// A signal asks to close.
+    Quit,
+    /// Sources of shaders changed: what they compile to, or why they do not.
+    Shaders(std::result::Result<Replaced, String>),
+    /// A job of that ticket has come to something.
+    Loaded(u64, Progress),
+}
 
 pub(super) fn run(options: &ViewOptions) -> Result<()> {
-    let scene = load_scene(&options.scene)?;
-    let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
-    open(options, &scene, Fly::new(camera)).map_err(advise)
+    // What is wrong with the scene file itself is said before a window opens.
+    let settings = options.scene.origin().settings(&options.scene.overrides())?;
+    open(options, settings.size).map_err(display::advise)
 }
 
-fn open(options: &ViewOptions, scene: &Scene, fly: Fly) -> Result<()> {
-    let event_loop = event_loop()?;
+fn open(options: &ViewOptions, size: [u32; 2]) -> Result<()> {
+    let event_loop: EventLoop<Event> = display::connect()?;
+    let proxy = event_loop.create_proxy();
+    signals::listen(proxy.clone())?;
+    let loading = Loading::start(options.scene.clone(), options.camera.clone(), 0, &proxy);
     let mut viewer = Viewer {
         options,
-        scene,
-        fly,
+        size,
+        proxy,
         stage: None,
+        picture: None,
+        pilot: None,
+        waiting: Waiting::default(),
+        loading: Some(loading),
+        pointer: Pointer::default(),
+        gui: Gui::default(),
+        hidden: false,
+        warned: false,
         start: Instant::now(),
-        pointer: None,
-        dragging: false,
         remaining: options.frames,
+        closing: false,
         outcome: Ok(()),
     };
-    event_loop.run_app(&mut viewer).map_err(|error| no_display(&error.to_string()))?;
-    let device = viewer.stage.take().map(|stage| stage.device.clone());
-    viewer.outcome?;
-    device.map_or(Ok(()), |device| device.require_silence())
-}
-
-/// Connects to the display.
-fn event_loop() -> Result<EventLoop<()>> {
-    // winit panics where a library or an extension of the display is missing; its message belongs into the error.
-    let hook = panic::take_hook();
-    panic::set_hook(Box::new(|_| {}));
-    let made = panic::catch_unwind(EventLoop::new);
-    panic::set_hook(hook);
-    match made {
-        Ok(made) => made.map_err(|error| no_display(&error.to_string())),
-        Err(payload) => Err(no_display(message(&*payload))),
-    }
-}
-
-fn message(payload: &dyn std::any::Any) -> &str {
-    payload
-        .downcast_ref::<String>()
-        .map(String::as_str)
-        .or_else(|| payload.downcast_ref::<&str>().copied())
-        .unwrap_or("no reason given")
-}
-
-fn no_display(reason: &str) -> Error {
-    // winit's place in its own source says nothing to a user.
-    let reason = reason
-        .strip_prefix("os error at ")
-        .and_then(|rest| rest.split_once(": "))
-        .map_or(reason, |(_, reason)| reason);
-    Error::NoDevice {
-        cause: format!("there is no display to open a window on ({})", reason.trim_end_matches('.')),
-        remedy: "start it from a desktop session, and run ./setup for the display's libraries".into(),
-    }
-}
-
-/// Whatever keeps the window shut, the same picture can be had without it.
-fn advise(error: Error) -> Error {
-    match error {
-        Error::NoDevice { cause, remedy } => Error::NoDevice {
-            cause,
-            remedy: format!("{remedy}; or use `amas render`, which needs no window"),
-        },
-        other => other,
-    }
+    viewer.gui.compare_with(options.compare.clone());
+    viewer.gui.shaders_watched(shaders::watch(options.glsl.as_deref(), viewer.proxy.clone()));
+    event_loop.run_app(&mut viewer).map_err(|error| display::missing(&error.to_string()))?;
+    viewer.close()
 }
 
 struct Viewer<'a> {
     options: &'a ViewOptions,
-    scene: &'a Scene,
-    fly: Fly,
-    start: Instant,
+    /// Of the window at first, pixels.
+    size: [u32; 2],
+    proxy: EventLoopProxy<Event>,
     stage: Option<Stage>,
-    /// Where the pointer was last, in pixels.
-    pointer: Option<[f64; 2]>,
-    dragging: bool,
+    /// `None` until the first scene is loaded.
+    picture: Option<Box<Picture>>,
+    pilot: Option<Pilot>,
+    waiting: Waiting,
+    loading: Option<Loading>,
+    pointer: Pointer,
+    gui: Gui,
+    /// Nothing of the window is on screen.
+    hidden: bool,
+    warned: bool,
+    start: Instant,
     /// Pictures to show before closing; `None`: until the user closes.
     remaining: Option<u32>,
+    closing: bool,
     outcome: Result<()>,
 }
 
@@ -118,93 +115,184 @@ impl Viewer<'_> {
         let Some(stage) = &mut self.stage else {
             return Ok(());
         };
-        let now = Instant::now();
-        let moves = self.fly.step(now) || !self.scene.motions.is_empty();
-        let time = (now - self.start).as_secs_f64();
-        let samples = if moves { 1 } else { self.scene.render.samples };
         // Without an area nothing moves, until the window has a size again.
-        let Some(shown) = stage.draw(self.scene, self.fly.camera(), time, samples)? else {
+        let Some(size) = stage.fit()? else {
             return Ok(());
         };
-        let on_screen = matches!(shown, Shown::Yes | Shown::Misfit);
-        if on_screen && let Some(remaining) = &mut self.remaining {
+        let (Some(picture), Some(pilot)) = (&mut self.picture, &mut self.pilot) else {
+            let fraction = self.loading.as_ref().map_or(0.0, Loading::fraction);
+            return stage.show(self.waiting.image(&stage.device, size, fraction)?).map(|_| ());
+        };
+        let now = Instant::now();
+        let moves = pilot.step(now) || picture.frame.scene().moves();
+        picture.set_single(self.gui.shows_view());
+        picture.fit(size, pilot.camera())?;
+        if self.remaining.is_some() && picture.is_complete() {
+            picture.restart();
+        }
+        let timings = picture.step(pilot.camera(), (now - self.start).as_secs_f64(), moves)?;
+        let (image, change) = self.gui.draw(stage, picture, pilot.camera(), timings)?;
+        let shown = stage.show(&image)?;
+        picture.change(change, pilot.camera())?;
+        if shown && let Some(remaining) = &mut self.remaining {
             *remaining = remaining.saturating_sub(1);
         }
-        if moves || !on_screen || self.remaining.is_some() {
+        let counters = picture.frame.counters();
+        if !self.warned && counters.overflowed > 0 {
+            report::warn_of_overflow(&counters, picture.scene.render.max_lights_per_cluster);
+            self.warned = true;
+        }
+        if moves || !shown || change > Change::Nothing || !picture.is_complete() || self.remaining.is_some() {
             stage.window.request_redraw();
         }
         Ok(())
     }
 
-    fn key(&mut self, event_loop: &ActiveEventLoop, code: KeyCode, pressed: bool) {
-        if code == KeyCode::Escape && pressed {
-            event_loop.exit();
-        } else if self.fly.key(code, pressed) {
-            self.redraw();
+    fn progress(&mut self, ticket: u64, progress: Progress) -> Result<()> {
+        let Some(loading) = self.loading.as_mut().filter(|loading| loading.is(ticket)) else {
+            return Ok(());
+        };
+        match progress {
+            Progress::Read(scene) => {
+                let scene = scene?;
+                let home = loading.camera(&scene)?;
+                let Some(stage) = &self.stage else {
+                    return Ok(());
+                };
+                let size = stage.window.inner_size();
+                let size = [size.width.max(1), size.height.max(1)];
+                let camera = scene.cameras[home].clone();
+                loading.upload(&stage.device, scene, &camera, size);
+            }
+            Progress::Ready(picture) => {
+                let picture = picture?;
+                let home = loading.camera(&picture.scene)?;
+                self.pilot = Some(Pilot::new(&picture.scene.cameras, home, picture.diagonal()));
+                self.gui.begin(&picture.scene);
+                self.picture = Some(picture);
+                self.loading = None;
+                self.redraw();
+            }
         }
+        Ok(())
     }
 
-    fn drag(&mut self, to: [f64; 2]) {
-        let from = self.pointer.replace(to);
-        if let (true, Some([x, y]), Some(stage)) = (self.dragging, from, &self.stage) {
-            let height = f64::from(stage.window.inner_size().height.max(1));
-            self.fly.turn((to[0] - x) / height, (to[1] - y) / height);
-            self.redraw();
-        }
+    /// Makes the frame anew with shaders that have changed; where that fails, the old one stays.
+    fn reload(&mut self, shaders: std::result::Result<Replaced, String>) {
+        let (Some(stage), Some(picture), Some(pilot)) = (&self.stage, &mut self.picture, &self.pilot) else {
+            return;
+        };
+        let made = shaders.and_then(|shaders| {
+            let before = stage.device.replace_shaders(Replaced::new());
+            stage.device.replace_shaders(before.clone().into_iter().chain(shaders).collect());
+            picture.remake(pilot.camera()).map_err(|error| {
+                stage.device.replace_shaders(before);
+                error.to_string()
+            })
+        });
+        self.gui.shaders_compiled(made);
+        self.redraw();
     }
 
     /// Ends the loop where something failed.
     fn settle(&mut self, event_loop: &ActiveEventLoop, result: Result<()>) {
-        if result.is_err() {
+        if result.is_err() && self.outcome.is_ok() {
             self.outcome = result;
         }
-        if self.outcome.is_err() || self.remaining == Some(0) {
+        if self.closing || self.outcome.is_err() || self.remaining == Some(0) {
             event_loop.exit();
         }
     }
+
+    fn cancel_or_close(&mut self) {
+        // The first scene has no picture to go back to.
+        if self.picture.is_none() || self.loading.take().is_none() {
+            self.closing = true;
+        }
+    }
+
+    /// After the loop: how it went.
+    fn close(mut self) -> Result<()> {
+        // What uses the device goes first.
+        self.loading = None;
+        self.picture = None;
+        let device = self.stage.take().map(|stage| stage.device.clone());
+        self.outcome?;
+        device.map_or(Ok(()), |device| device.require_silence())
+    }
 }
 
-impl ApplicationHandler for Viewer<'_> {
+impl ApplicationHandler<Event> for Viewer<'_> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.stage.is_some() {
-            return;
+        if self.stage.is_none() {
+            let opened = Stage::open(event_loop, self.options, self.size);
+            let result = opened.map(|stage| self.stage = Some(stage));
+            self.settle(event_loop, result);
         }
-        let opened = Stage::open(event_loop, self.options, self.scene);
-        let result = opened.map(|stage| self.stage = Some(stage));
-        self.settle(event_loop, result);
         self.redraw();
     }
 
-    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        match event {
-            WindowEvent::CloseRequested => event_loop.exit(),
-            WindowEvent::RedrawRequested if self.outcome.is_ok() && !event_loop.exiting() => {
-                let result = self.draw();
-                self.settle(event_loop, result);
+    fn suspended(&mut self, _: &ActiveEventLoop) {
+        if let Some(stage) = &mut self.stage {
+            stage.suspend();
+        }
+    }
+
+    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
+        if matches!(cause, StartCause::ResumeTimeReached { .. }) {
+            self.redraw();
+        }
+    }
+
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Event) {
+        let result = match event {
+            Event::Quit => {
+                self.closing = true;
+                Ok(())
             }
-            WindowEvent::Resized(_) => {
+            Event::Shaders(shaders) => {
+                self.reload(shaders);
+                Ok(())
+            }
+            Event::Loaded(ticket, progress) => {
+                let result = self.progress(ticket, progress);
+                in_scene(&self.options.scene, result)
+            }
+        };
+        self.settle(event_loop, result);
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        if self.outcome.is_err() || event_loop.exiting() {
+            return;
+        }
+        let result = match event {
+            WindowEvent::CloseRequested => {
+                self.closing = true;
+                Ok(())
+            }
+            WindowEvent::RedrawRequested if self.hidden => Ok(()),
+            WindowEvent::RedrawRequested => self.draw(),
+            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
                 if let Some(stage) = &mut self.stage {
                     stage.outdate();
                 }
                 self.redraw();
+                Ok(())
             }
-            WindowEvent::KeyboardInput {
-                event: KeyEvent { physical_key: PhysicalKey::Code(code), state, .. },
-                ..
-            } => self.key(event_loop, code, state == ElementState::Pressed),
-            WindowEvent::Focused(false) => {
-                self.fly.release();
-                self.dragging = false;
+            WindowEvent::Occluded(hidden) => {
+                self.hidden = hidden;
+                self.redraw();
+                Ok(())
             }
-            WindowEvent::MouseInput { button: MouseButton::Left, state, .. } => {
-                self.dragging = state == ElementState::Pressed
-            }
-            WindowEvent::CursorMoved { position, .. } => self.drag(position.into()),
-            WindowEvent::MouseWheel { delta, .. } => self.fly.accelerate(match delta {
-                MouseScrollDelta::LineDelta(_, lines) => lines.into(),
-                MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_PER_NOTCH,
-            }),
-            _ => {}
-        }
+            event => self.input(event),
+        };
+        self.settle(event_loop, result);
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        let look = self.loading.as_ref().map(|_| Instant::now() + LOOK);
+        let next = look.into_iter().chain(self.gui.due()).min();
+        event_loop.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 }

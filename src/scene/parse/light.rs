@@ -17,6 +17,7 @@ const MOST_LIGHTS: usize = 1 << 20;
 /// Reads every `[[light]]` into the loader's scene.
 pub(in crate::scene) fn lights(loader: &mut Loader, root: &Table) -> Result<()> {
     for table in root.tables("light")? {
+        loader.advance()?;
         let kind = table.require("type", "\"point\"")?;
         match kind.string()? {
             "point" => group(loader, &table, vec![point(&table)?])?,
@@ -52,6 +53,7 @@ fn group(loader: &mut Loader, table: &Table, lights: Vec<PointLight>) -> Result<
         let course = motion::course(&animate, &lights)?;
         scene.motions.push(Motion { lights: first..first + lights.len(), course });
     }
+    scene.point_groups.push(first..first + lights.len());
     scene.point_lights.extend(lights);
     Ok(())
 }

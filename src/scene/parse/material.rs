@@ -36,6 +36,7 @@ const MODELS: [(&str, Model); 5] = [
 /// Reads every `[[material]]` into the loader's scene.
 pub(in crate::scene) fn materials(loader: &mut Loader, root: &Table) -> Result<()> {
     for table in root.tables("material")? {
+        loader.advance()?;
         let value = table.require("name", "\"floor\"")?;
         let name = value.string()?;
         if loader.material_named(name).is_some() {

@@ -24,6 +24,7 @@ pub(in crate::scene) fn meshes(loader: &mut Loader, root: &Table) -> Result<()> 
 }
 
 fn mesh(loader: &mut Loader, table: &Table) -> Result<()> {
+    loader.advance()?;
     match (table.get("obj"), table.get("shape")) {
         (Some(file), None) => from_obj(loader, table, &file),
         (None, Some(shape)) => from_shape(loader, table, &shape),

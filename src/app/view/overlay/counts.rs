@@ -1,0 +1,76 @@
+//! What the last picture held: lights, clusters, lists, memory, samples and the estimated error.
+
+use crate::app::view::picture::Picture;
+use crate::error::Result;
+use crate::gpu::Device;
+use crate::shared::Counters;
+use egui::Ui;
+
+const MEGABYTE: f64 = 1024.0 * 1024.0;
+
+/// Figures of a picture.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Figures {
+    device: String,
+    driver: String,
+    size: [u32; 2],
+    grid: [u32; 3],
+    counters: Counters,
+    point_lights: usize,
+    area_lights: u32,
+    /// Samples so far, and of the picture at rest.
+    samples: [u32; 2],
+    /// Of what folds and cuts cause, relative.
+    error: f64,
+    memory: f64,
+}
+
+impl Figures {
+    /// Of the sample last rendered.
+    pub(super) fn new(device: &Device, picture: &Picture) -> Result<Self> {
+        let (info, frame) = (device.info(), &picture.frame);
+        let counters = frame.counters();
+        let folds = f64::from(f32::from_bits(counters.fold_error));
+        Ok(Self {
+            device: info.name.clone(),
+            driver: info.driver.clone(),
+            size: frame.settings().size,
+            grid: frame.grid(),
+            point_lights: frame.scene().lights.lights.len(),
+            area_lights: frame.scene().area.count,
+            samples: [frame.samples(), picture.samples()],
+            error: frame.light_error()? + folds,
+            memory: device.peak_memory() as f64 / MEGABYTE,
+            counters,
+        })
+    }
+
+    pub(super) fn show(&self, ui: &mut Ui) {
+        let [width, height] = self.size;
+        let [x, y, z] = self.grid;
+        let counters = &self.counters;
+        let lists = format!("{} in all, {} at most", counters.entries, counters.longest);
+        let folded = format!("{} lights, {} clusters", counters.folded, counters.overflowed);
+        let cuts = format!("{} in all, {} at most", counters.cut_entries, counters.cut_longest);
+        let rows = [
+            ("samples", format!("{} of {}", self.samples[0], self.samples[1])),
+            ("estimated error", format!("{:.3} %", 100.0 * self.error)),
+            ("lights", format!("{} points, {} areas", self.point_lights, self.area_lights)),
+            ("clusters", format!("{} of {x} × {y} × {z}", counters.occupied)),
+            ("lists", lists),
+            ("cuts", cuts),
+            ("folded", folded),
+            ("picture", format!("{width} × {height}")),
+            ("memory", format!("{:.0} MB of the device at most", self.memory)),
+            ("device", self.device.clone()),
+            ("driver", self.driver.clone()),
+        ];
+        egui::Grid::new("counts").num_columns(2).striped(true).show(ui, |ui| {
+            for (name, value) in rows {
+                ui.weak(name);
+                ui.label(value);
+                ui.end_row();
+            }
+        });
+    }
+}

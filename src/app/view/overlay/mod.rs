@@ -1,0 +1,352 @@
+//! The overlay over the picture: panels of figures and settings, in egui.
+//!
+//! Hidden, it is neither made nor drawn: the picture goes to the window as it is. Shown, it is drawn into a copy of the
+//! picture, so that a picture at rest need not be rendered again for a pointer that moves.
+
+mod compare;
+mod counts;
+mod document;
+mod history;
+mod inspect;
+mod keys;
+mod legend;
+mod paint;
+mod picked;
+mod settings;
+mod truth;
+mod views;
+
+pub(super) use settings::Change;
+
+use super::picture::Picture;
+use super::stage::Stage;
+use crate::error::Result;
+use crate::frame::Timings;
+use crate::gpu::Image;
+use crate::passes::overlay::{Ground, Overlay};
+use crate::scene::{Camera, Scene};
+use compare::{Beside, Compare, Mode};
+use counts::Figures;
+use egui::style::ScrollStyle;
+use egui::{Color32, ComboBox, Context, FullOutput, LayerId, ScrollArea, Ui, ViewportId, pos2};
+use history::History;
+use inspect::Inspector;
+use paint::Textures;
+use picked::project;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use views::{VIEWS, Views};
+use winit::event::{ElementState, WindowEvent};
+use winit::keyboard::KeyCode;
+use winit::window::Window;
+
+/// Colours of the passes in frame order: those of Okabe and Ito, which all eyes tell apart.
+const PASS_COLORS: [Color32; 7] = [
+    Color32::from_rgb(240, 228, 66),
+    Color32::from_rgb(86, 180, 233),
+    Color32::from_rgb(0, 158, 115),
+    Color32::from_rgb(213, 94, 0),
+    Color32::from_rgb(230, 159, 0),
+    Color32::from_rgb(204, 121, 167),
+    Color32::from_rgb(0, 114, 178),
+];
+
+/// Time between two looks at the reference.
+const LOOK: Duration = Duration::from_millis(250);
+
+/// On hot reload of shaders.
+const WATCHED: &str = "Changes in glsl/ are compiled and shown at once.";
+const NOT_WATCHED: &str = "The checkout that amas was built from is not here: shaders stay as they are.";
+
+/// Width of the panels, points.
+const WIDTH: f32 = 280.0;
+
+/// The overlay's state; what it draws with is made when it is first shown.
+#[derive(Default)]
+pub(super) struct Gui {
+    /// The panels of figures and settings are open.
+    panels: bool,
+    /// The list of keys is open.
+    keys: bool,
+    tools: Option<Tools>,
+    history: History,
+    /// Of the last picture; `None` where nobody has asked.
+    figures: Option<Figures>,
+    inspector: Inspector,
+    views: Views,
+    compare: Compare,
+    /// Sources of shaders are watched.
+    watched: bool,
+    /// Why shaders that changed are not used.
+    trouble: Option<String>,
+    /// When egui wants to be drawn again though nothing happened.
+    due: Option<Instant>,
+}
+
+/// What an overlay is drawn with.
+struct Tools {
+    input: egui_winit::State,
+    textures: Textures,
+    pass: Overlay,
+}
+
+impl Gui {
+    /// Whether anything is to be drawn over the picture.
+    fn is_shown(&self) -> bool {
+        let open = self.panels || self.keys || self.trouble.is_some();
+        open || self.shows_view() || self.compare.mode != Mode::Off
+    }
+
+    /// Whether a debug view is shown in the picture's place.
+    pub(super) fn shows_view(&self) -> bool {
+        self.views.shown().is_some()
+    }
+
+    /// A file to compare pictures with, instead of the oracle's.
+    pub(super) fn compare_with(&mut self, file: Option<PathBuf>) {
+        self.compare.file = file;
+    }
+
+    /// A scene was loaded.
+    pub(super) fn begin(&mut self, scene: &Scene) {
+        self.inspector.begin(scene);
+        self.views.forget();
+        self.compare.forget();
+    }
+
+    /// Whether there are sources of shaders to watch.
+    pub(super) fn shaders_watched(&mut self, watched: bool) {
+        self.watched = watched;
+    }
+
+    /// What came of shaders that changed.
+    pub(super) fn shaders_compiled(&mut self, made: std::result::Result<(), String>) {
+        if made.is_ok() {
+            // The overlay's own may be among them.
+            self.tools = None;
+            self.views.forget();
+            self.compare.outdate();
+        }
+        self.trouble = made.err();
+    }
+
+    /// Picks what is under a pixel, and opens the panels.
+    pub(super) fn pick(&mut self, picture: &Picture, camera: &Camera, time: f64, at: [f64; 2]) -> Result<()> {
+        self.inspector.picked = picked::pick(picture, camera, time, at)?;
+        self.panels = true;
+        Ok(())
+    }
+
+    /// Opens or closes what a key stands for; whether it does.
+    pub(super) fn key(&mut self, code: KeyCode) -> bool {
+        let open = match code {
+            KeyCode::KeyO => &mut self.panels,
+            KeyCode::Slash | KeyCode::F1 => &mut self.keys,
+            KeyCode::KeyX => {
+                self.compare.next();
+                return true;
+            }
+            _ => return self.views.key(code),
+        };
+        *open = !*open;
+        true
+    }
+
+    /// Whether an event is the overlay's alone.
+    pub(super) fn takes(&mut self, window: &Window, event: &WindowEvent) -> bool {
+        let shown = self.is_shown();
+        let Some(tools) = self.tools.as_mut().filter(|_| shown) else {
+            return false;
+        };
+        let response = tools.input.on_window_event(window, event);
+        if response.repaint {
+            window.request_redraw();
+        }
+        // What goes up may have gone down before the overlay was in the way.
+        let up = match event {
+            WindowEvent::MouseInput { state, .. } => *state == ElementState::Released,
+            WindowEvent::KeyboardInput { event, .. } => event.state == ElementState::Released,
+            _ => false,
+        };
+        response.consumed && !up
+    }
+
+    /// When the overlay has to be drawn again of itself.
+    pub(super) fn due(&self) -> Option<Instant> {
+        self.due.filter(|_| self.is_shown())
+    }
+
+    /// The picture with what is shown over it, and what the user changed there; `timings` are those of a sample that is new.
+    pub(super) fn draw(
+        &mut self,
+        stage: &Stage,
+        picture: &mut Picture,
+        camera: &Camera,
+        timings: Option<Timings>,
+    ) -> Result<(Arc<Image>, Change)> {
+        if let Some(timings) = timings {
+            self.history.add(&timings);
+            self.figures = None;
+            self.views.outdate();
+            self.compare.refresh();
+        }
+        if !self.is_shown() {
+            return Ok((picture.image().clone(), Change::Nothing));
+        }
+        if self.panels && self.figures.is_none() {
+            self.figures = Some(Figures::new(&stage.device, picture)?);
+        }
+        let mut tools = match self.tools.take() {
+            Some(tools) => tools,
+            None => Tools::new(stage)?,
+        };
+        let mut change = Change::Nothing;
+        let size = picture.frame.settings().size;
+        let output = tools.run(&stage.window, |context| {
+            if self.panels {
+                change = change.max(self.panels(context, &mut picture.scene));
+                self.mark(context, &picture.scene, camera, size);
+            }
+            if self.keys {
+                keys::show(context, &mut self.keys);
+            }
+            if let Some(trouble) = &self.trouble {
+                complain(context, trouble);
+            }
+            legend::show(context, &self.views, &mut self.compare, size);
+        });
+        // Longer than a day means never.
+        let delay = output.viewport_output.get(&ViewportId::ROOT).map(|view| view.repaint_delay);
+        self.due = delay.filter(|&delay| delay < Duration::from_secs(86_400)).map(|d| Instant::now() + d);
+        if self.compare.is_at_work() {
+            let look = Instant::now() + LOOK;
+            self.due = Some(self.due.map_or(look, |due| due.min(look)));
+        }
+        let beside = self.compare.images(stage, picture, camera)?;
+        let below = self.views.image(stage, picture)?.unwrap_or(picture.image());
+        let ground = match beside {
+            Beside::Nothing => Ground { picture: below, beside: None },
+            Beside::Split(truth, column) => Ground { picture: below, beside: Some((truth, column)) },
+            Beside::Difference(image) => Ground { picture: image, beside: None },
+        };
+        let image = tools.paint(&ground, output)?;
+        self.tools = Some(tools);
+        self.settle(change);
+        Ok((image, change))
+    }
+
+    /// Forgets what a change makes wrong.
+    fn settle(&mut self, change: Change) {
+        if change >= Change::Frame {
+            self.views.forget();
+            self.compare.outdate();
+        }
+        if matches!(change, Change::Edit(_) | Change::Scene) {
+            self.compare.forget();
+        }
+    }
+
+    fn panels(&mut self, context: &Context, scene: &mut Scene) -> Change {
+        let mut change = Change::Nothing;
+        let window = egui::Window::new("amas").default_pos([8.0, 8.0]).default_width(WIDTH);
+        window.default_height(context.content_rect().height() - 64.0).show(context, |ui| {
+            ScrollArea::vertical().show(ui, |ui| {
+                section(ui, "Time", |ui| self.history.show(ui));
+                section(ui, "View", |ui| self.choose(ui));
+                if let Some(figures) = &self.figures {
+                    section(ui, "Counts", |ui| figures.show(ui));
+                }
+                let areas = !scene.area_lights.is_empty();
+                section(ui, "Settings", |ui| change = settings::show(ui, &mut scene.render, areas));
+                section(ui, "Picked", |ui| change = change.max(self.inspector.show(ui, scene)));
+                section(ui, "Shaders", |ui| {
+                    ui.weak(if self.watched { WATCHED } else { NOT_WATCHED });
+                });
+                section(ui, "Save", |ui| self.inspector.save(ui, scene));
+            });
+        });
+        change
+    }
+
+    /// The debug views and comparisons, as the keys have them.
+    fn choose(&mut self, ui: &mut Ui) {
+        let mut shown = self.views.shown();
+        ComboBox::from_id_salt("view")
+            .selected_text(shown.map_or("picture", |view| VIEWS[view].name))
+            .show_ui(ui, |ui| {
+                ui.selectable_value(&mut shown, None, "picture");
+                for (index, view) in VIEWS.iter().enumerate() {
+                    ui.selectable_value(&mut shown, Some(index), view.name);
+                }
+            });
+        self.views.show(shown);
+        let mut mode = self.compare.mode;
+        ui.horizontal(|ui| {
+            for (name, value) in [("alone", Mode::Off), ("split", Mode::Split), ("error", Mode::Difference)] {
+                ui.radio_value(&mut mode, value, name);
+            }
+        });
+        while mode != self.compare.mode {
+            self.compare.next();
+        }
+    }
+
+    /// A ring around the light that is picked.
+    fn mark(&self, context: &Context, scene: &Scene, camera: &Camera, size: [u32; 2]) {
+        let place = self.inspector.picked.and_then(|picked| picked.place(scene));
+        let Some([x, y, _]) = place.and_then(|place| project(camera, size, place.as_dvec3())) else {
+            return;
+        };
+        let scale = context.pixels_per_point();
+        let painter = context.layer_painter(LayerId::background());
+        painter.circle_stroke(pos2(x as f32 / scale, y as f32 / scale), 8.0, (1.5, Color32::WHITE));
+        painter.circle_stroke(pos2(x as f32 / scale, y as f32 / scale), 9.5, (1.5, Color32::BLACK));
+    }
+}
+
+impl Tools {
+    fn new(stage: &Stage) -> Result<Self> {
+        let context = Context::default();
+        context.set_theme(egui::Theme::Dark);
+        context.all_styles_mut(|style| {
+            // What moves by itself would have the window drawn again and again.
+            style.animation_time = 0.0;
+            style.spacing.scroll = ScrollStyle::solid();
+        });
+        let scale = Some(stage.window.scale_factor() as f32);
+        let side = Some(stage.device.largest_image() as usize);
+        let input = egui_winit::State::new(context, ViewportId::ROOT, &stage.window, scale, None, side);
+        Ok(Self { input, textures: Textures::default(), pass: Overlay::new(&stage.device)? })
+    }
+
+    fn run(&mut self, window: &Window, mut show: impl FnMut(&Context)) -> FullOutput {
+        let input = self.input.take_egui_input(window);
+        let context = self.input.egui_ctx().clone();
+        let mut output = context.run_ui(input, |ui| show(ui.ctx()));
+        self.input.handle_platform_output(window, std::mem::take(&mut output.platform_output));
+        output
+    }
+
+    fn paint(&mut self, ground: &Ground<'_>, mut output: FullOutput) -> Result<Arc<Image>> {
+        self.textures.update(&mut output.textures_delta, &mut self.pass)?;
+        let scale = output.pixels_per_point;
+        let primitives = self.input.egui_ctx().tessellate(output.shapes, scale);
+        let drawing = paint::drawing(primitives, scale, ground.picture.size());
+        self.pass.draw(ground, &drawing)
+    }
+}
+
+fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
+    egui::CollapsingHeader::new(title).default_open(true).show(ui, contents);
+}
+
+/// Why shaders that changed are not used.
+fn complain(context: &Context, trouble: &str) {
+    let window = egui::Window::new("Shaders").collapsible(false).default_pos([8.0, 8.0]);
+    window.show(context, |ui| {
+        ScrollArea::both().max_height(200.0).show(ui, |ui| {
+            ui.label(egui::RichText::new(trouble).monospace().color(Color32::LIGHT_RED));
+        });
+    });
+}

@@ -1,0 +1,37 @@
+//! A frame under other settings: only what they change is made anew.
+
+use super::{Frame, FrameSettings, pass_inputs, work};
+use crate::error::Result;
+use crate::passes::forward::Work;
+
+impl Frame {
+    /// Takes other settings, of any size. Limits are constants of the next picture, a tone curve is a pipeline; anything
+    /// else makes the frame anew.
+    ///
+    /// # Errors
+    /// As [`Frame::new`].
+    pub fn retune(&mut self, settings: FrameSettings) -> Result<()> {
+        let next = Work { folded: self.work.folded, ..work(&self.device, &self.scene, &settings) };
+        let kept = FrameSettings { size: settings.size, perspective: settings.perspective, ..self.settings };
+        let curve = Work { tonemap: next.tonemap, ..self.work };
+        if kept != self.settings || curve != next || settings.brute_force != self.settings.brute_force {
+            return self.remake(settings);
+        }
+        if next.tonemap != self.work.tonemap {
+            let inputs = pass_inputs(&self.device, &self.scene, &settings);
+            self.forward.set_tonemap(&inputs, next.tonemap)?;
+        }
+        self.work = next;
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Compiles every pass anew; where that fails, the frame stays as it is.
+    ///
+    /// # Errors
+    /// As [`Frame::new`].
+    pub fn remake(&mut self, settings: FrameSettings) -> Result<()> {
+        *self = Self::new(&self.device.clone(), &self.scene.clone(), settings)?;
+        Ok(())
+    }
+}
