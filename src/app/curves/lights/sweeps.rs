@@ -83,7 +83,7 @@ pub(super) const SWEEPS: &[Sweep] = &[
 
 /// Ranges, metres, at which 28 of 2⁰, 2², 2⁴ … 2²⁰ lights reach a pixel in the mean (of few lights, as many as there are): found
 /// by the counts of useful pairs at 320 × 180, since the box of lights ends where the larger ranges do not.
-const RANGES: [f32; 11] = RANGES_HERE;
+const RANGES: [f32; 11] = [1.15; 11];
 
 /// log2 of the lights of the first two sweeps.
 const LIGHTS: u32 = 16;
