@@ -6,7 +6,8 @@
 //!    more bits as it has points for, and again where points crowd, until [`FEW`] are left together.
 //!
 //! CPU ms of 2²⁰ points strewn evenly, on one thread: bounds 3, keys 8, sort 8; a radix sort of all 30 bits and tables of
-//! two levels took 51. Morton's keys would take 2 less, and boxes of 32 points in their order have 1.6 times the volume.
+//! two levels took 51. Morton's keys cost as much within 2 %, and boxes of 32 points in their order have 2.7 times the
+//! volume (1.6 times with ranges as in `scenes/million.toml`).
 
 use glam::Vec3;
 use std::ops::Range;
@@ -237,7 +238,7 @@ mod tests {
         let mut points = strewn(1.0);
         let even = boxes(&points, &order(points.iter().copied()), 1.0);
         assert!((0.83..2.5).contains(&even), "{even}");
-        // Morton's order, which is cheaper to tell.
+        // Morton's order jumps: 2.7 times that.
         let bits = |v: f32| (0..10).fold(0_u32, |bits, i| bits | ((v * 1024.0) as u32 >> i & 1) << (3 * i));
         let morton = |&index: &u32| {
             let [x, y, z] = points[index as usize].to_array().map(bits);
@@ -246,7 +247,7 @@ mod tests {
         let mut other: Vec<u32> = (0..points.len() as u32).collect();
         other.sort_by_key(morton);
         let worse = boxes(&points, &other, 1.0) / even;
-        assert!((1.3..2.0).contains(&worse), "{worse}");
+        assert!((2.0..3.5).contains(&worse), "{worse}");
         // A crowd that has 40 cells of the curve along each axis.
         points = strewn(0.01);
         points.push(Vec3::ONE);
