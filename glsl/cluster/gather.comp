@@ -101,8 +101,11 @@ void append(uint leaf, uint hits) {
     found += sum.zw;
 }
 
+// Whether what is found needs no more: a parent that will be split needs no list, and with too many leaves none is made.
+bool full() { return found.x > PARENT_ROOM && (counters.first_parent == 0u || found.y > LEAF_ROOM); }
+
 void visit_leaves(uint count) {
-    for (uint first = 0u; first < count; first += LANES) {
+    for (uint first = 0u; first < count && !full(); first += LANES) {
         uint at = first + gl_LocalInvocationIndex;
         uint leaf = at < count ? met[LEAVES * TOP_LEAVES + at] : 0u;
         uint light = leaf * LEAF_LIGHTS;
@@ -113,11 +116,11 @@ void visit_leaves(uint count) {
 void walk() {
     uint tops = frame.top_nodes;
     uint crowns = (tops + TOP_LEAVES - 1u) / TOP_LEAVES;
-    for (uint first = 0u; first < crowns; first += TOP_LEAVES) {
+    for (uint first = 0u; first < crowns && !full(); first += TOP_LEAVES) {
         uint met_crowns = note_met(CROWNS, 0u, first, crowns);
-        for (uint i = 0u; i < met_crowns; ++i) {
+        for (uint i = 0u; i < met_crowns && !full(); ++i) {
             uint met_tops = note_met(TOPS, crowns, met[CROWNS * TOP_LEAVES + i] * TOP_LEAVES, tops);
-            for (uint j = 0u; j < met_tops; ++j) {
+            for (uint j = 0u; j < met_tops && !full(); ++j) {
                 visit_leaves(note_leaves(crowns + tops, met[TOPS * TOP_LEAVES + j] * TOP_LEAVES));
             }
         }

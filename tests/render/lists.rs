@@ -37,6 +37,11 @@ fn list(texels: &[[u32; 4]], cluster: &Cluster) -> Vec<u32> {
 fn check(text: &str) -> f64 {
     let mut rig = Rig::new(scene(text));
     rig.render();
+    check_lists(&rig)
+}
+
+/// The same of the picture last rendered.
+fn check_lists(rig: &Rig) -> f64 {
     let positions = rig.aov(Quantity::Position);
     let (targets, clusters) = rig.frame.cluster_targets();
     let ids: Vec<u32> = targets.cluster_ids.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
@@ -161,4 +166,37 @@ fn random_views() {
         let name = format!("{position:.1?} to {target:.1?}");
         report(&name, &world(&camera, NEAR_LIGHTS, "[128, 72]"));
     }
+}
+
+/// Lights so dense that parents have no room for those that reach them, though clusters have.
+#[test]
+fn crowded_parents_are_split() {
+    let dense = NEAR_LIGHTS.replace("count = 1500", "count = 60000").replace("range = 1.3", "range = 0.3");
+    let mut rig = Rig::new(scene(&world(PERSPECTIVE, &dense, "[97, 57]")));
+    rig.render();
+    println!("dense: {:.2} entries per reaching light", check_lists(&rig));
+    let counters = rig.frame.counters();
+    assert!(counters.parents > counters.first_parent, "some were split");
+    assert_eq!((counters.folding, counters.folded), (0, 0), "and none of those is crowded");
+}
+
+/// Whatever the size of small workgroups: pictures, ids and lists.
+#[test]
+fn lanes_change_nothing() {
+    // Three crowns, parents that are split, and a last workgroup of tiles that is not full.
+    let dense = NEAR_LIGHTS.replace("count = 1500", "count = 300000").replace("range = 1.3", "range = 0.1");
+    let results = [8, 16, 32].map(|lanes| {
+        let scene = scene(&world(PERSPECTIVE, &dense, "[145, 90]"));
+        let mut rig = Rig::with(scene, |settings| settings.lanes = Some(lanes));
+        let picture = rig.render();
+        let (targets, clusters) = rig.frame.cluster_targets();
+        let ids: Vec<u32> = targets.cluster_ids.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
+        let texels: Vec<[u32; 4]> = clusters.lists.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
+        let clusters = clusters.clusters.fetch(Use::ComputeWrite).unwrap();
+        let occupied = &clusters[..rig.frame.counters().clusters as usize];
+        let lists: Vec<Vec<u32>> = occupied.iter().map(|cluster| list(&texels, cluster)).collect();
+        assert!(rig.frame.counters().entries > 0);
+        (picture, ids, lists)
+    });
+    assert!(results[0] == results[1] && results[0] == results[2]);
 }
