@@ -148,6 +148,9 @@ pub(super) struct ViewOptions {
     /// Close after N pictures, a sample each, rendered one after the other
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) frames: Option<u32>,
+    /// Use high dynamic range where the display offers it: scRGB or HDR10, white at 203 cd/m²
+    #[arg(long)]
+    pub(super) hdr: bool,
     /// Do not wait for the display's refresh
     #[arg(long)]
     pub(super) no_vsync: bool,

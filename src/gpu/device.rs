@@ -61,7 +61,7 @@ impl Device {
     /// # Errors
     /// [`Error::NoDevice`] where none answers or none suffices, with the reason for each.
     pub fn open(options: &Options) -> Result<Arc<Self>> {
-        Self::open_on(Instance::new(options.validate, &[])?, options, None)
+        Self::open_on(Instance::new(options.validate)?, options, None)
     }
 
     /// Opens a device that can also present, where a presentation is given.
@@ -81,7 +81,7 @@ impl Device {
     /// # Errors
     /// [`Error::NoDevice`] without a loader.
     pub fn enumerate() -> Result<Vec<DeviceInfo>> {
-        let instance = Instance::new(false, &[])?;
+        let instance = Instance::new(false)?;
         Ok(candidates(&instance, None)?.into_iter().map(|candidate| candidate.info).collect())
     }
 

@@ -8,8 +8,8 @@ use super::present::Present;
 use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{Attachment, Commands, Device, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use};
-use crate::scene::settings::Tonemap;
-use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, LDR_FORMAT, Targets};
+use crate::scene::settings::{Encoding, Tonemap};
+use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets, ldr_format};
 use std::sync::Arc;
 
 const HDR: u32 = 0;
@@ -43,6 +43,8 @@ pub struct Work {
     pub luminaires: bool,
     /// Tone curve.
     pub tonemap: Tonemap,
+    /// Encoding of the picture.
+    pub encoding: Encoding,
 }
 
 /// The forward pass.
@@ -76,7 +78,7 @@ impl Forward {
         Ok(Self {
             direct: Direct::new(inputs, work, (&first, 0))?,
             indirect,
-            present: Present::new(inputs, work.tonemap, (&first, last))?,
+            present: Present::new(inputs, (work.tonemap, work.encoding), (&first, last))?,
             first,
             further,
             framebuffer,
@@ -150,7 +152,7 @@ fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<R
         "forward",
         &[
             Attachment { format: HDR_FORMAT, before: hdr_before, after: Use::TransferRead },
-            Attachment { format: LDR_FORMAT, before: Use::Nothing, after: Use::TransferRead },
+            Attachment { format: ldr_format(work.encoding), before: Use::Nothing, after: Use::TransferRead },
             Attachment { format: DEPTH_FORMAT, before: Use::DepthRead, after: Use::DepthRead },
         ],
         &subpasses,

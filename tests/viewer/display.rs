@@ -52,16 +52,13 @@ impl Display {
 
 impl Drop for Display {
     fn drop(&mut self) {
-        let _ = self.server.kill();
+        // Asked to end, it removes its lock and socket; done from here, that might hit the server that has its number next.
+        let _ = Command::new("kill").arg(self.server.id().to_string()).status();
         let _ = self.server.wait();
-        // What Xvfb removes itself, unless it is killed.
-        let number = &self.name[1..];
-        let _ = std::fs::remove_file(format!("/tmp/.X{number}-lock"));
-        let _ = std::fs::remove_file(format!("/tmp/.X11-unix/X{number}"));
     }
 }
 
-/// As much of the X protocol as it takes to resize a window and to press a key.
+/// As much of the X protocol as it takes to move a window and to use keyboard and mouse.
 pub(super) struct Client {
     stream: UnixStream,
     root: u32,
@@ -103,6 +100,11 @@ impl Client {
         self.send(12, 0, &words(&[window, WIDTH_AND_HEIGHT, width, height]));
     }
 
+    pub(super) fn place(&mut self, window: u32, [x, y]: [u32; 2]) {
+        const X_AND_Y: u32 = 1 | 2;
+        self.send(12, 0, &words(&[window, X_AND_Y, x, y]));
+    }
+
     pub(super) fn focus(&mut self, window: u32) {
         const REVERT_TO_POINTER: u8 = 1;
         self.send(42, REVERT_TO_POINTER, &words(&[window, 0]));
@@ -110,8 +112,29 @@ impl Client {
 
     /// Presses or releases a key, as the hardware would.
     pub(super) fn key(&mut self, code: u8, down: bool) {
-        let event = u32::from_le_bytes([if down { 2 } else { 3 }, code, 0, 0]);
-        self.send(self.xtest, 2, &words(&[event, 0, self.root, 0, 0, 0, 0, 0]));
+        self.fake([if down { 2 } else { 3 }, code], [0; 2]);
+    }
+
+    /// Presses and releases a key.
+    pub(super) fn tap(&mut self, code: u8) {
+        self.key(code, true);
+        self.key(code, false);
+    }
+
+    /// Presses or releases a button: 1 left, 3 right, 4 and 5 the wheel.
+    pub(super) fn button(&mut self, number: u8, down: bool) {
+        self.fake([if down { 4 } else { 5 }, number], [0; 2]);
+    }
+
+    /// Moves the pointer to a place on the screen.
+    pub(super) fn point(&mut self, at: [u16; 2]) {
+        self.fake([6, 0], at);
+    }
+
+    fn fake(&mut self, [kind, detail]: [u8; 2], [x, y]: [u16; 2]) {
+        let event = u32::from_le_bytes([kind, detail, 0, 0]);
+        let at = u32::from(x) | u32::from(y) << 16;
+        self.send(self.xtest, 2, &words(&[event, 0, self.root, 0, 0, 0, at, 0]));
     }
 
     fn send(&mut self, opcode: u8, detail: u8, body: &[u8]) {

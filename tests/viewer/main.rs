@@ -5,6 +5,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that panics fails")]
 
 mod display;
+mod robust;
+mod wayland;
 
 use display::Display;
 use std::path::{Path, PathBuf};
@@ -99,20 +101,53 @@ struct View(Option<Child>);
 
 impl View {
     fn open(display: &Display, scene: &Path, arguments: &[&str]) -> Self {
-        let child = amas(&["view", "--device", "llvmpipe", "--validate"])
-            .arg(scene)
-            .args(arguments)
-            .env("DISPLAY", &display.name)
-            .spawn()
-            .unwrap();
+        Self::open_plain(display, scene, &[&["--validate"], arguments].concat())
+    }
+
+    /// Without validation, which takes memory of its own.
+    fn open_plain(display: &Display, scene: &Path, arguments: &[&str]) -> Self {
+        let mut command = amas(&["view", "--device", "llvmpipe"]);
+        Self::of(command.arg(scene).args(arguments).env("DISPLAY", &display.name).spawn().unwrap())
+    }
+
+    fn of(child: Child) -> Self {
         Self(Some(child))
     }
 
+    /// `None` once it has ended.
+    fn resident_kilobytes(&self) -> Option<u64> {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.id())).ok()?;
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+        line.trim().strip_suffix(" kB")?.parse().ok()
+    }
+
+    fn id(&self) -> u32 {
+        self.0.as_ref().unwrap().id()
+    }
+
+    fn has_ended(&mut self) -> bool {
+        self.0.as_mut().unwrap().try_wait().unwrap().is_some()
+    }
+
+    fn signal(&self, name: &str) {
+        let status = Command::new("kill").args(["-s", name, &self.id().to_string()]).status();
+        assert!(status.unwrap().success());
+    }
+
     /// Waits for its end, which has to be a good one.
-    fn ends_well(mut self) {
-        let output = self.0.take().unwrap().wait_with_output().unwrap();
+    fn ends_well(self) {
+        let output = self.output();
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         assert_eq!(stderr(&output), "");
+    }
+}
+
+impl View {
+    /// Waits for its end.
+    #[track_caller]
+    fn output(mut self) -> Output {
+        wait_until("the window's end", || self.has_ended());
+        self.0.take().unwrap().wait_with_output().unwrap()
     }
 }
 

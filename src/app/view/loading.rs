@@ -1,7 +1,7 @@
 //! Loading beside the window's thread: first the files, then the device.
 
 use super::Event;
-use super::picture::Picture;
+use super::picture::{Picture, Shape};
 use crate::app::args::SceneOptions;
 use crate::app::{camera_index, in_scene, load_watched, warn_of_missing_shadows};
 use crate::error::{Error, Result};
@@ -73,12 +73,12 @@ impl Loading {
         in_scene(&self.options, camera_index(scene, self.camera.as_deref()))
     }
 
-    /// Goes on to the device, for a picture of that size.
-    pub(super) fn upload(&mut self, device: &Arc<Device>, scene: Scene, camera: &Camera, size: [u32; 2]) {
+    /// Goes on to the device, for a picture of that shape.
+    pub(super) fn upload(&mut self, device: &Arc<Device>, scene: Scene, camera: &Camera, shape: Shape) {
         let (device, camera, ticket) = (device.clone(), camera.clone(), self.ticket);
         let (options, progress, proxy) = (self.options.clone(), self.progress.clone(), self.proxy.clone());
         self.upload = Some(std::thread::spawn(move || {
-            let picture = build(&device, scene, &camera, size, &progress);
+            let picture = build(&device, scene, &camera, shape, &progress);
             let picture = in_scene(&options, picture).map(Box::new);
             let _ = proxy.send_event(Event::Loaded(ticket, Progress::Ready(picture)));
         }));
@@ -100,7 +100,7 @@ fn build(
     device: &Arc<Device>,
     scene: Scene,
     camera: &Camera,
-    size: [u32; 2],
+    shape: Shape,
     progress: &ProgressBar,
 ) -> Result<Picture> {
     let going_on = || match progress.is_finished() {
@@ -110,7 +110,7 @@ fn build(
     warn_of_missing_shadows(&scene);
     let gpu = GpuScene::new(device, &scene)?;
     going_on()?;
-    let picture = Picture::new(device, gpu, scene, camera, size)?;
+    let picture = Picture::new(device, gpu, scene, camera, shape)?;
     going_on()?;
     Ok(picture)
 }

@@ -19,7 +19,7 @@ use super::{in_scene, report};
 use crate::error::Result;
 use input::Pointer;
 use loading::{Loading, Progress};
-use picture::Picture;
+use picture::{Picture, Shape};
 use pilot::Pilot;
 use stage::Stage;
 use std::time::{Duration, Instant};
@@ -115,7 +115,7 @@ impl Viewer<'_> {
         };
         let now = Instant::now();
         let moves = pilot.step(now) || picture.gpu.moves();
-        picture.fit(size, pilot.camera())?;
+        picture.fit(Shape { size, encoding: stage.encoding() }, pilot.camera())?;
         if self.remaining.is_some() && picture.is_complete() {
             picture.restart();
         }
@@ -149,7 +149,7 @@ impl Viewer<'_> {
                 let size = stage.window.inner_size();
                 let size = [size.width.max(1), size.height.max(1)];
                 let camera = scene.cameras[home].clone();
-                loading.upload(&stage.device, scene, &camera, size);
+                loading.upload(&stage.device, scene, &camera, Shape { size, encoding: stage.encoding() });
             }
             Progress::Ready(picture) => {
                 let picture = picture?;

@@ -4,6 +4,7 @@ use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, Image};
 use crate::gpu_scene::GpuScene;
+use crate::scene::settings::Encoding;
 use crate::scene::{Camera, Projection, Scene};
 use glam::DVec3;
 use indicatif::ProgressBar;
@@ -17,6 +18,14 @@ pub(super) struct Picture {
     device: Arc<Device>,
     /// What the frame's samples show.
     shown: Option<View>,
+}
+
+/// What the window asks of pictures.
+#[derive(Clone, Copy)]
+pub(super) struct Shape {
+    /// Pixels across and down.
+    pub(super) size: [u32; 2],
+    pub(super) encoding: Encoding,
 }
 
 /// Whatever begins a new picture when it changes.
@@ -35,20 +44,21 @@ impl Picture {
         gpu: GpuScene,
         scene: Scene,
         camera: &Camera,
-        size: [u32; 2],
+        shape: Shape,
     ) -> Result<Self> {
         let gpu = Arc::new(gpu);
-        let frame = make_frame(device, &gpu, &scene, camera, size)?;
+        let frame = make_frame(device, &gpu, &scene, camera, shape)?;
         Ok(Self { scene, gpu, frame, device: device.clone(), shown: None })
     }
 
     /// Makes the frame fit the window, and the kind of camera.
-    pub(super) fn fit(&mut self, size: [u32; 2], camera: &Camera) -> Result<()> {
-        if self.frame.settings().perspective != perspective(camera) {
-            self.frame = make_frame(&self.device, &self.gpu, &self.scene, camera, size)?;
+    pub(super) fn fit(&mut self, shape: Shape, camera: &Camera) -> Result<()> {
+        let now = self.frame.settings();
+        if (now.perspective, now.encoding) != (perspective(camera), shape.encoding) {
+            self.frame = make_frame(&self.device, &self.gpu, &self.scene, camera, shape)?;
             self.shown = None;
-        } else if self.frame.settings().size != size {
-            self.frame.resize(size)?;
+        } else if now.size != shape.size {
+            self.frame.resize(shape.size)?;
             self.shown = None;
         }
         Ok(())
@@ -117,7 +127,7 @@ fn make_frame(
     gpu: &Arc<GpuScene>,
     scene: &Scene,
     camera: &Camera,
-    size: [u32; 2],
+    Shape { size, encoding }: Shape,
 ) -> Result<Frame> {
-    Frame::new(device, gpu, FrameSettings { size, ..FrameSettings::new(&scene.render, camera) })
+    Frame::new(device, gpu, FrameSettings { size, encoding, ..FrameSettings::new(&scene.render, camera) })
 }

@@ -1,8 +1,10 @@
 //! The open window and its device: where pictures go.
 
 use crate::app::args::ViewOptions;
+use crate::app::terminal::complain;
 use crate::error::{Error, Result};
 use crate::gpu::{Device, Image, Options, Shown, Swapchain};
+use crate::scene::settings::Encoding;
 use std::sync::Arc;
 use winit::dpi::PhysicalSize;
 use winit::event_loop::ActiveEventLoop;
@@ -34,7 +36,10 @@ impl Stage {
         let window = Arc::new(window);
         let asked = Options { device: options.device.device.clone(), validate: options.device.validate };
         let (device, mut swapchain) =
-            Device::open_for_window(&asked, &window, event_loop.owned_display_handle())?;
+            Device::open_for_window(&asked, &window, event_loop.owned_display_handle(), options.hdr)?;
+        if options.hdr && swapchain.encoding() == Encoding::Srgb {
+            complain("warning: the display offers no high dynamic range; the window shows sRGB");
+        }
         swapchain.set_vsync(!options.no_vsync);
         Ok(Self { swapchain, device, window, fits: false, vsync: !options.no_vsync })
     }
@@ -58,6 +63,11 @@ impl Stage {
         self.vsync
     }
 
+    /// How pictures for the window are to be encoded.
+    pub(super) fn encoding(&self) -> Encoding {
+        self.swapchain.encoding()
+    }
+
     /// Makes the images fit the window, and says how large they are; `None` where it has no area.
     pub(super) fn fit(&mut self) -> Result<Option<[u32; 2]>> {
         if !self.fits {
@@ -68,11 +78,13 @@ impl Stage {
 
     /// Sends a picture to the window; whether it is on its way to the screen.
     pub(super) fn show(&mut self, picture: &Arc<Image>) -> Result<bool> {
-        if self.vsync {
-            // Wayland says when it wants the next one.
-            self.window.pre_present_notify();
-        }
-        let shown = self.swapchain.show(picture)?;
+        // Wayland says when it wants the next one; asked for it without a picture, it would never answer.
+        let (window, vsync) = (&self.window, self.vsync);
+        let shown = self.swapchain.show(picture, || {
+            if vsync {
+                window.pre_present_notify();
+            }
+        })?;
         if matches!(shown, Shown::Misfit | Shown::OutOfDate) {
             self.fits = false;
         }
