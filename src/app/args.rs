@@ -39,7 +39,10 @@ pub(super) enum Command {
   R           reset the camera
   C           print the camera as TOML, and copy it to the clipboard
   V           wait for the display's refresh, or not
+  F5          load the scene again, as also happens when one of its files changes
+  F12         save the picture to amas_0001.png and .exr, or the next free number
   Esc         stop loading; else close
+A scene or an OBJ file that is dropped on the window is shown there.
 
 Example:
   amas view scene.toml --size 1280x720 --camera main")]
@@ -151,6 +154,9 @@ pub(super) struct ViewOptions {
     /// Use high dynamic range where the display offers it: scRGB or HDR10, white at 203 cd/m²
     #[arg(long)]
     pub(super) hdr: bool,
+    /// Print how long it took until window and picture were there
+    #[arg(long)]
+    pub(super) startup: bool,
     /// Do not wait for the display's refresh
     #[arg(long)]
     pub(super) no_vsync: bool,

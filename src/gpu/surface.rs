@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::scene::settings::Encoding;
 use ash::{khr, vk};
 use std::ffi::CStr;
+use std::path::PathBuf;
 use std::sync::Arc;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::raw_window_handle::{HandleError, HasDisplayHandle, HasWindowHandle, RawDisplayHandle};
@@ -30,6 +31,15 @@ const HIGH: [Offer; 3] = [
     (vk::Format::A2R10G10B10_UNORM_PACK32, vk::ColorSpaceKHR::HDR10_ST2084_EXT, Encoding::Hdr10),
 ];
 
+/// What a window asks for beyond a device.
+#[derive(Clone, Debug, Default)]
+pub struct WindowOptions {
+    /// High dynamic range, where the window offers it.
+    pub high: bool,
+    /// Folder in which compiled pipelines are kept.
+    pub cache: Option<PathBuf>,
+}
+
 /// Where a window's pictures go.
 pub(super) struct Surface {
     pub(super) raw: vk::SurfaceKHR,
@@ -42,8 +52,7 @@ pub(super) struct Surface {
 }
 
 impl Device {
-    /// Opens a device that can present to the window, and the window's swapchain, still without images; with `high` of high
-    /// dynamic range where the window offers it.
+    /// Opens a device that can present to the window, and the window's swapchain, still without images.
     ///
     /// # Errors
     /// [`Error::NoDevice`] as [`Device::open`], and where no device can present to the window.
@@ -51,13 +60,13 @@ impl Device {
         options: &Options,
         window: &Arc<Window>,
         display: OwnedDisplayHandle,
-        high: bool,
+        wanted: &WindowOptions,
     ) -> Result<(Arc<Self>, Swapchain)> {
         let raw = display.display_handle().map_err(no_handle)?.as_raw();
         let instance = Instance::for_window(options.validate, &required_extensions(raw)?)?;
         let surface = Surface::new(instance.clone(), window.clone(), display)?;
-        let device = Self::open_on(instance, options, Some(&surface))?;
-        let swapchain = Swapchain::new(&device, surface, high)?;
+        let device = Self::open_on(instance, options, Some(&surface), wanted.cache.as_deref())?;
+        let swapchain = Swapchain::new(&device, surface, wanted.high)?;
         Ok((device, swapchain))
     }
 }

@@ -21,6 +21,7 @@ mod lists;
 mod luminaires;
 mod motion;
 mod oracle;
+mod pick;
 mod support;
 mod surfaces;
 mod textures;

@@ -61,8 +61,11 @@ impl Drop for Display {
 /// As much of the X protocol as it takes to move a window and to use keyboard and mouse.
 pub(super) struct Client {
     stream: UnixStream,
-    root: u32,
+    pub(super) root: u32,
     xtest: u8,
+    /// The next window's.
+    pub(super) id: u32,
+    events: Vec<[u8; 32]>,
 }
 
 impl Client {
@@ -79,7 +82,9 @@ impl Client {
         // The first screen follows the vendor's name and the pixmap formats.
         let vendor = usize::from(half(&setup, 16)).next_multiple_of(4);
         let screen = 32 + vendor + 8 * usize::from(setup[21]);
-        let mut client = Self { stream, root: full(&setup, screen), xtest: 0 };
+        stream.set_read_timeout(Some(super::PATIENCE)).unwrap();
+        let (root, id) = (full(&setup, screen), full(&setup, 4));
+        let mut client = Self { stream, root, xtest: 0, id, events: Vec::new() };
         let extension = client.ask(98, 0, b"\x05\0\0\0XTEST\0\0\0");
         assert_eq!(extension[8], 1, "the X server has no XTEST");
         client.xtest = extension[9];
@@ -137,31 +142,48 @@ impl Client {
         self.send(self.xtest, 2, &words(&[event, 0, self.root, 0, 0, 0, at, 0]));
     }
 
-    fn send(&mut self, opcode: u8, detail: u8, body: &[u8]) {
+    pub(super) fn send(&mut self, opcode: u8, detail: u8, body: &[u8]) {
         let [low, high] = (1 + body.len() as u16 / 4).to_le_bytes();
         let request = [&[opcode, detail, low, high], body].concat();
         self.stream.write_all(&request).unwrap();
     }
 
     /// Sends a request and waits for its reply.
-    fn ask(&mut self, opcode: u8, detail: u8, body: &[u8]) -> Vec<u8> {
+    pub(super) fn ask(&mut self, opcode: u8, detail: u8, body: &[u8]) -> Vec<u8> {
         self.send(opcode, detail, body);
         loop {
-            let mut reply = vec![0; 32];
-            self.stream.read_exact(&mut reply).unwrap();
-            assert_ne!(reply[0], 0, "the X server reports error {}", reply[1]);
-            // Anything else is an event.
-            if reply[0] == 1 {
-                let mut rest = vec![0; 4 * full(&reply, 4) as usize];
-                self.stream.read_exact(&mut rest).unwrap();
-                reply.extend(rest);
+            let head = self.read();
+            if head[0] == 1 {
+                let mut reply = head.to_vec();
+                reply.resize(32 + 4 * full(&head, 4) as usize, 0);
+                self.stream.read_exact(&mut reply[32..]).unwrap();
                 return reply;
             }
+            self.events.push(head);
         }
+    }
+
+    /// Waits for an event of that kind.
+    pub(super) fn event(&mut self, kind: u8) -> [u8; 32] {
+        loop {
+            // The upper bit tells what another client sent.
+            if let Some(index) = self.events.iter().position(|event| event[0] & 0x7f == kind) {
+                return self.events.remove(index);
+            }
+            let event = self.read();
+            self.events.push(event);
+        }
+    }
+
+    fn read(&mut self) -> [u8; 32] {
+        let mut head = [0; 32];
+        self.stream.read_exact(&mut head).unwrap();
+        assert_ne!(head[0], 0, "the X server reports error {}", head[1]);
+        head
     }
 }
 
-fn words(words: &[u32]) -> Vec<u8> {
+pub(super) fn words(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
@@ -169,6 +191,6 @@ fn half(bytes: &[u8], at: usize) -> u16 {
     u16::from_le_bytes([bytes[at], bytes[at + 1]])
 }
 
-fn full(bytes: &[u8], at: usize) -> u32 {
+pub(super) fn full(bytes: &[u8], at: usize) -> u32 {
     u32::from(half(bytes, at)) | u32::from(half(bytes, at + 2)) << 16
 }

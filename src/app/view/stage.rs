@@ -3,8 +3,9 @@
 use crate::app::args::ViewOptions;
 use crate::app::terminal::complain;
 use crate::error::{Error, Result};
-use crate::gpu::{Device, Image, Options, Shown, Swapchain};
+use crate::gpu::{Device, Image, Options, Shown, Swapchain, WindowOptions};
 use crate::scene::settings::Encoding;
+use std::path::PathBuf;
 use std::sync::Arc;
 use winit::dpi::PhysicalSize;
 use winit::event_loop::ActiveEventLoop;
@@ -18,6 +19,7 @@ pub(super) struct Stage {
     /// Whether the images fit the window.
     fits: bool,
     vsync: bool,
+    title: String,
 }
 
 impl Stage {
@@ -34,14 +36,15 @@ impl Stage {
             remedy: "check the display".into(),
         })?;
         let window = Arc::new(window);
+        let wanted = WindowOptions { high: options.hdr, cache: cache_folder() };
         let asked = Options { device: options.device.device.clone(), validate: options.device.validate };
         let (device, mut swapchain) =
-            Device::open_for_window(&asked, &window, event_loop.owned_display_handle(), options.hdr)?;
+            Device::open_for_window(&asked, &window, event_loop.owned_display_handle(), &wanted)?;
         if options.hdr && swapchain.encoding() == Encoding::Srgb {
             complain("warning: the display offers no high dynamic range; the window shows sRGB");
         }
         swapchain.set_vsync(!options.no_vsync);
-        Ok(Self { swapchain, device, window, fits: false, vsync: !options.no_vsync })
+        Ok(Self { swapchain, device, window, fits: false, vsync: !options.no_vsync, title: String::new() })
     }
 
     /// Has the window's images made anew before the next picture.
@@ -91,8 +94,31 @@ impl Stage {
         Ok(matches!(shown, Shown::Yes | Shown::Misfit))
     }
 
+    /// Sets the title, if it is another.
+    pub(super) fn entitle(&mut self, title: String) {
+        if self.title != title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
+    }
+
+    /// Asks for a window of that size; what comes of it is up to the display.
+    pub(super) fn ask_size(&self, [width, height]: [u32; 2]) {
+        if self.window.request_inner_size(PhysicalSize::new(width, height)).is_some() {
+            // Granted at once, and so without an event.
+            self.window.request_redraw();
+        }
+    }
+
     /// Pixels of the window's height, at least 1: what drags are measured by.
     pub(super) fn height(&self) -> f64 {
         f64::from(self.window.inner_size().height.max(1))
     }
+}
+
+/// The user's folder for what can be made again (XDG Base Directory Specification), if there is one.
+fn cache_folder() -> Option<PathBuf> {
+    let named = |name| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let folder = named("XDG_CACHE_HOME").or_else(|| named("HOME").map(|home| home.join(".cache")))?;
+    Some(folder.join("amas"))
 }
