@@ -49,7 +49,8 @@ impl Frame {
     pub fn develop_pass(&self) -> Result<Develop> {
         let inputs =
             PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
-        Develop::new(&inputs, self.settings.tonemap, self.settings.size)
+        let looks = (self.settings.tonemap, self.settings.encoding);
+        Develop::new(&inputs, looks, self.settings.size)
     }
 
     /// Develops a scene-linear picture, four numbers a pixel, times `scale`.
