@@ -7,9 +7,9 @@
 
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, Blend, Buffer, BufferUse, Commands, Cull, DepthTest, DescriptorSets, Device, Format, Framebuffer,
-    GraphicsDescription, GraphicsPipeline, Image, ImageDescription, Outside, PipelineLayout, RenderPass,
-    Sampler, Specialization, Subpass, Use, Vertices, shaders,
+    Attachment, Blend, Buffer, BufferUse, Commands, Cull, DepthTest, DescriptorSets, Device, Format,
+    Framebuffer, GraphicsDescription, GraphicsPipeline, Image, ImageDescription, Outside, PipelineLayout,
+    RenderPass, Sampler, Specialization, Subpass, Use, Vertices, shaders,
 };
 use crate::scene::settings::Encoding;
 use crate::shared::{self, OverlayConstants};

@@ -12,6 +12,7 @@ mod cameras;
 mod clusters;
 mod cut;
 mod cut_worlds;
+mod edits;
 mod encodings;
 mod far;
 mod folds;

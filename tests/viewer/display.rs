@@ -15,9 +15,14 @@ pub(super) struct Display {
 
 impl Display {
     pub(super) fn start() -> Self {
+        Self::of_size([320, 240])
+    }
+
+    pub(super) fn of_size([width, height]: [usize; 2]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "320x240x24"])
+            .args(["-displayfd", "1", "-screen", "0"])
+            .arg(format!("{width}x{height}x24"))
             .args(["-nolisten", "tcp", "-fbdir"])
             .arg(folder.path())
             .stdout(Stdio::piped())

@@ -8,6 +8,7 @@ mod cameras;
 mod display;
 mod exchange;
 mod loading;
+mod overlay;
 mod robust;
 mod wayland;
 

@@ -142,8 +142,7 @@ impl Picture {
 
     /// Whether every sample of a view that rests is there.
     pub(super) fn is_complete(&self) -> bool {
-        let complete =
-            |view: &View| self.frame.samples() >= view.samples && view.samples == self.samples();
+        let complete = |view: &View| self.frame.samples() >= view.samples && view.samples == self.samples();
         self.shown.as_ref().is_some_and(complete)
     }
 

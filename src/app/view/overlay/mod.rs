@@ -99,7 +99,7 @@ struct Tools {
 impl Gui {
     /// Whether anything is to be drawn over the picture.
     fn is_shown(&self) -> bool {
-        let open = self.panels || self.keys || self.trouble.is_some() || self.refused.is_some();
+        let open = self.panels || self.keys || self.trouble.is_some();
         open || self.shows_view() || self.compare.mode != Mode::Off
     }
 
@@ -227,10 +227,11 @@ impl Gui {
             if self.keys {
                 keys::show(context, &mut self.keys);
             }
-            for (title, trouble) in [("Shaders", &self.trouble), ("Scene", &self.refused)] {
-                if let Some(trouble) = trouble {
-                    complain(context, title, trouble);
-                }
+            if let Some(trouble) = &self.trouble {
+                complain(context, "Shaders", trouble);
+            }
+            if let Some(refused) = self.refused.as_ref().filter(|_| self.panels) {
+                complain(context, "Scene", refused);
             }
             legend::show(context, &self.views, &mut self.compare, size);
         });
@@ -355,12 +356,7 @@ impl Tools {
         output
     }
 
-    fn paint(
-        &mut self,
-        ground: &Ground<'_>,
-        covered: bool,
-        mut output: FullOutput,
-    ) -> Result<Arc<Image>> {
+    fn paint(&mut self, ground: &Ground<'_>, covered: bool, mut output: FullOutput) -> Result<Arc<Image>> {
         self.textures.update(&mut output.textures_delta, &mut self.pass)?;
         let scale = output.pixels_per_point;
         let primitives = self.input.egui_ctx().tessellate(output.shapes, scale);
