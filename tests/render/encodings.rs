@@ -8,7 +8,8 @@ use crate::support::{FIVE_MATERIALS, Rig, scene};
 
 /// The picture under an encoding, as it reads back in 8 bits.
 fn picture(encoding: Encoding, tonemap: Tonemap) -> Vec<[u8; 4]> {
-    let mut rig = Rig::with(scene(FIVE_MATERIALS), |settings| {
+    let text = FIVE_MATERIALS.replace("[render]", "[render]\nbackground = [0.9, 0.4, 0.1]");
+    let mut rig = Rig::with(scene(&text), |settings| {
         settings.encoding = encoding;
         settings.tonemap = tonemap;
     });

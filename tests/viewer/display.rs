@@ -144,7 +144,7 @@ impl Client {
     fn fake(&mut self, [kind, detail]: [u8; 2], [x, y]: [u16; 2]) {
         let event = u32::from_le_bytes([kind, detail, 0, 0]);
         let at = u32::from(x) | u32::from(y) << 16;
-        self.send(self.xtest, 2, &words(&[event, 0, self.root, 0, 0, 0, at, 0]));
+        self.send(self.xtest, 2, &words(&[event, 0, self.root, 0, 0, at, 0, 0]));
     }
 
     pub(super) fn send(&mut self, opcode: u8, detail: u8, body: &[u8]) {

@@ -1,8 +1,9 @@
 //! The window on a Wayland compositor without a screen.
 
-use super::{View, amas, scene, stderr, wait_until};
+use super::{SCENE, View, amas, scene, stderr, wait_until};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 /// A running weston.
 struct Compositor {
@@ -29,14 +30,18 @@ impl Compositor {
     }
 
     fn open(&self, scene: &Path, arguments: &[&str]) -> View {
-        let child = amas(&["view", "--device", "llvmpipe", "--validate"])
-            .arg(scene)
-            .args(arguments)
-            .env("XDG_RUNTIME_DIR", self.folder.path())
-            .env("WAYLAND_DISPLAY", "amas-test")
-            .spawn()
-            .unwrap();
-        View::of(child)
+        View::of(self.command(scene).args(arguments).spawn().unwrap())
+    }
+
+    /// Says on stderr what it tells the compositor.
+    fn open_telling(&self, scene: &Path) -> View {
+        View::of(self.command(scene).env("WAYLAND_DEBUG", "client").spawn().unwrap())
+    }
+
+    fn command(&self, scene: &Path) -> Command {
+        let mut command = amas(&["view", "--device", "llvmpipe", "--validate"]);
+        command.arg(scene).env("XDG_RUNTIME_DIR", self.folder.path()).env("WAYLAND_DISPLAY", "amas-test");
+        command
     }
 }
 
@@ -51,23 +56,52 @@ impl Drop for Compositor {
 fn a_wayland_window_shows_pictures_and_closes() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene(folder.path());
-    for shell in ["desktop-shell.so", "kiosk-shell.so"] {
-        for vsync in [&["--frames", "20"][..], &["--frames", "20", "--no-vsync"]] {
-            Compositor::start(shell).open(&scene, vsync).ends_well();
-        }
+    let compositor = Compositor::start("desktop-shell.so");
+    for vsync in [&["--frames", "20"][..], &["--frames", "20", "--no-vsync"]] {
+        compositor.open(&scene, vsync).ends_well();
     }
 }
 
-/// Without a limit of frames it rests, and a signal ends it.
+/// A scene that asks for another size gets it; a signal ends the window that rests.
 #[test]
-fn a_wayland_window_ends_by_signal() {
+fn a_wayland_window_follows_its_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let compositor = Compositor::start("desktop-shell.so");
+    let view = compositor.open_telling(&scene);
+    std::thread::sleep(Duration::from_secs(2));
+    std::fs::write(&scene, SCENE.replace("[96, 64]", "[120, 80]")).unwrap();
+    std::thread::sleep(Duration::from_secs(2));
+    assert_eq!(sizes(view), ["96, 64", "120, 80"]);
+}
+
+/// This shell gives windows the whole output. Without a seat it keeps them behind its background and asks for no picture: a
+/// hidden window ends, too.
+#[test]
+fn a_wayland_window_takes_the_size_that_it_is_given() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene(folder.path());
     let compositor = Compositor::start("kiosk-shell.so");
-    let view = compositor.open(&scene, &[]);
-    std::thread::sleep(std::time::Duration::from_secs(2));
+    let view = compositor.open_telling(&scene);
+    std::thread::sleep(Duration::from_secs(2));
+    assert_eq!(sizes(view).last().map(String::as_str), Some("200, 140"));
+}
+
+/// Ends the window, and says which sizes its images had, in order.
+fn sizes(view: View) -> Vec<String> {
     view.signal("TERM");
-    view.ends_well();
+    let output = view.output();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    // Of libwayland: -> wl_shm_pool@40.create_buffer(new id wl_buffer@42, 0, 200, 140, 832, 1)
+    let buffers =
+        said.lines().filter_map(|line| line.split_once("create_buffer(new id ")?.1.split_once(", 0, "));
+    let mut sizes: Vec<String> =
+        buffers.filter_map(|(_, rest)| Some(rest.rsplitn(3, ", ").last()?.to_owned())).collect();
+    // Title bars.
+    sizes.retain(|size| !size.ends_with(", 24"));
+    sizes.dedup();
+    sizes
 }
 
 /// A compositor that goes away takes the window along, without a crash.
@@ -77,8 +111,10 @@ fn a_compositor_that_dies_is_said() {
     let scene = scene(folder.path());
     let compositor = Compositor::start("desktop-shell.so");
     let view = compositor.open(&scene, &[]);
-    std::thread::sleep(std::time::Duration::from_secs(2));
+    std::thread::sleep(Duration::from_secs(2));
     drop(compositor);
     let output = view.output();
-    assert!(output.status.code().is_some_and(|code| code != 101), "{:?}: {}", output.status, stderr(&output));
+    let said = stderr(&output);
+    assert!(output.status.code().is_some_and(|code| code != 0 && code != 101), "{:?}: {said}", output.status);
+    assert!(said.contains("remedy"), "{said}");
 }

@@ -113,7 +113,7 @@ impl Viewer<'_> {
                 pilot.go_home(None);
             }
             KeyCode::KeyC => {
-                let text = write::camera(pilot.camera());
+                let text = write::camera(&pilot.copy());
                 print(text.trim_end())?;
                 self.pointer.copy(text);
             }

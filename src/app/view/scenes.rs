@@ -73,7 +73,7 @@ impl Viewer<'_> {
         let size = picture.scene.render.size;
         if loading.aim == Aim::Again
             && size != self.size
-            && let Some(stage) = &self.stage
+            && let Some(stage) = &mut self.stage
         {
             stage.ask_size(size);
         }

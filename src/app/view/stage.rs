@@ -103,9 +103,10 @@ impl Stage {
     }
 
     /// Asks for a window of that size; what comes of it is up to the display.
-    pub(super) fn ask_size(&self, [width, height]: [u32; 2]) {
+    pub(super) fn ask_size(&mut self, [width, height]: [u32; 2]) {
         if self.window.request_inner_size(PhysicalSize::new(width, height)).is_some() {
-            // Granted at once, and so without an event.
+            // Granted at once, and so without an event: on Wayland a window has the size that it gives itself.
+            self.fits = false;
             self.window.request_redraw();
         }
     }
