@@ -82,8 +82,10 @@ fn a_hidden_overlay_leaves_the_picture_as_it_is() {
     open.client.point([170, 130]);
     open.client.tap(I);
     wait_until("the panels again", || differing(open.screen().iter(), first.iter()) > 0.2);
+    // Out of the way of what is compared.
+    open.client.point([319, 239]);
     open.client.tap(O);
-    open.shows("the picture again", SIZE, &first);
+    wait_until("the picture again", || differing(upper(&open.screen()).iter(), upper(&first).iter()) == 0.0);
     open.ends_well();
 }
 
@@ -205,7 +207,11 @@ fn copy(from: &Path, to: &Path) {
     for entry in from.read_dir().unwrap() {
         let path = entry.unwrap().path();
         let target = to.join(path.file_name().unwrap());
-        if path.is_dir() { copy(&path, &target) } else { drop(std::fs::copy(&path, &target).unwrap()) }
+        if path.is_dir() {
+            copy(&path, &target);
+        } else {
+            std::fs::copy(&path, &target).unwrap();
+        }
     }
 }
 

@@ -115,7 +115,10 @@ fn build(
 ) -> Result<Picture> {
     let going_on = || match progress.is_finished() {
         true => Err(Error::usage("loading was cancelled", "load the scene again")),
-        false => Ok(progress.inc(1)),
+        false => {
+            progress.inc(1);
+            Ok(())
+        }
     };
     warn_of_missing_shadows(&scene);
     let gpu = GpuScene::new(device, &scene)?;

@@ -45,6 +45,7 @@ use winit::window::WindowId;
 const LOOK: Duration = Duration::from_millis(50);
 
 /// What other threads tell the window's.
+#[allow(clippy::large_enum_variant, reason = "a scene moves through it once")]
 enum Event {
     /// A signal asks to close.
     Quit,
@@ -248,6 +249,7 @@ impl ApplicationHandler<Event> for Viewer<'_> {
 
     fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
         if matches!(cause, StartCause::ResumeTimeReached { .. }) {
+            self.gui.woken();
             self.redraw();
         }
     }

@@ -120,7 +120,7 @@ impl Compare {
             self.truth = None;
             return Ok(Beside::Nothing);
         }
-        self.begin(&picture.scene, picture.is_complete(), camera, size)?;
+        self.begin(&picture.scene, picture.is_complete(), camera, size);
         let Some(truth) = self.truth.as_ref().filter(|truth| truth.size() == size) else {
             return Ok(Beside::Nothing);
         };
@@ -156,20 +156,19 @@ impl Compare {
     }
 
     /// Begins the truth of a view that rests, unless it is that already.
-    fn begin(&mut self, scene: &Scene, rests: bool, camera: &Camera, size: [u32; 2]) -> Result<()> {
+    fn begin(&mut self, scene: &Scene, rests: bool, camera: &Camera, size: [u32; 2]) {
         if let Some(file) = &self.file {
             if self.truth.is_none() {
-                self.truth = Some(Truth::load(file)?);
+                self.truth = Some(Truth::load(file));
                 self.image = None;
             }
-            return Ok(());
+            return;
         }
         let same = |truth: &Truth| truth.camera.as_ref() == Some(camera) && truth.size() == size;
         if !self.truth.as_ref().is_some_and(same) {
             self.truth = rests.then(|| Truth::compute(scene, camera, size));
             self.image = None;
         }
-        Ok(())
     }
 }
 

@@ -183,6 +183,11 @@ impl Gui {
         response.consumed && !up
     }
 
+    /// It is being drawn again, or cannot be: a time that has passed must not be waited for.
+    pub(super) fn woken(&mut self) {
+        self.due = None;
+    }
+
     /// When the overlay has to be drawn again of itself.
     pub(super) fn due(&self) -> Option<Instant> {
         self.due.filter(|_| self.is_shown())
@@ -373,7 +378,7 @@ fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
 fn complain(context: &Context, title: &str, trouble: &str) {
     let window = egui::Window::new(title).collapsible(false).default_pos([8.0, 8.0]);
     window.show(context, |ui| {
-        ScrollArea::both().max_height(200.0).show(ui, |ui| {
+        ScrollArea::both().max_height(120.0).show(ui, |ui| {
             ui.label(egui::RichText::new(trouble).monospace().color(Color32::LIGHT_RED));
         });
     });
