@@ -46,7 +46,7 @@ fn bindings_of(table: &str) -> &'static [Binding] {
     }
 }
 
-/// The probes have a set of their own, in the place of the frame's; the resolve and the accounting, in that of a
+/// The probes and the window's overlay have sets of their own, in the place of the frame's; the resolve and the accounting, in that of a
 /// material's.
 fn table(shader: &str, set: u32) -> Option<(&'static str, &'static [Binding])> {
     let name = match set {

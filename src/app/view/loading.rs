@@ -2,6 +2,7 @@
 
 use super::Event;
 use super::picture::{Picture, Shape};
+use super::worker::Worker;
 use crate::app::args::SceneOptions;
 use crate::app::{camera_index, in_scene, load_watched, warn_of_missing_shadows};
 use crate::error::{Error, Result};
@@ -26,7 +27,9 @@ pub(super) struct Loading {
     progress: ProgressBar,
     /// Tells this job's events from those of jobs that were cancelled.
     pub(super) ticket: u64,
-    upload: Option<JoinHandle<()>>,
+    /// Whether the device is in use for it.
+    uploads: bool,
+    worker: Worker,
     proxy: EventLoopProxy<Event>,
 }
 
@@ -51,7 +54,13 @@ pub(super) enum Progress {
 
 impl Loading {
     /// Begins to read the files.
-    pub(super) fn start(options: SceneOptions, aim: Aim, ticket: u64, proxy: &EventLoopProxy<Event>) -> Self {
+    pub(super) fn start(
+        options: SceneOptions,
+        aim: Aim,
+        ticket: u64,
+        proxy: &EventLoopProxy<Event>,
+        worker: Worker,
+    ) -> Self {
         let progress = ProgressBar::with_draw_target(Some(DEVICE_STEPS), ProgressDrawTarget::hidden());
         let job = Self {
             options,
@@ -59,12 +68,12 @@ impl Loading {
             since: SystemTime::now(),
             progress,
             ticket,
-            upload: None,
+            uploads: false,
+            worker,
             proxy: proxy.clone(),
         };
         let (options, progress, proxy) = (job.options.clone(), job.progress.clone(), job.proxy.clone());
-        // Not waited for where it is cancelled: it touches no device, and its result is dropped.
-        std::thread::spawn(move || {
+        job.worker.run(move || {
             let scene = load_watched(&options, &progress);
             // Without an event loop nobody waits for it.
             let _ = proxy.send_event(Event::Loaded(ticket, Progress::Read(scene)));
@@ -72,11 +81,18 @@ impl Loading {
         job
     }
 
-    /// Has it end where it is. The thread that uses the device, if there is one, must be waited for before the device is gone.
+    /// Has it end where it is. A thread that uses the device must be waited for before the device is gone; one that reads files
+    /// ends with the program, if not before, and what it reads is dropped.
     #[must_use]
     pub(super) fn cancel(self) -> Option<JoinHandle<()>> {
         self.progress.abandon();
-        self.upload
+        let thread = self.worker.retire();
+        self.uploads.then_some(thread)
+    }
+
+    /// It has come to its end; the worker is free.
+    pub(super) fn end(self) -> Worker {
+        self.worker
     }
 
     /// From 0 to 1.
@@ -98,11 +114,14 @@ impl Loading {
     pub(super) fn upload(&mut self, device: &Arc<Device>, scene: Scene, camera: &Camera, shape: Shape) {
         let (device, camera, ticket) = (device.clone(), camera.clone(), self.ticket);
         let (options, progress, proxy) = (self.options.clone(), self.progress.clone(), self.proxy.clone());
-        self.upload = Some(std::thread::spawn(move || {
+        self.uploads = true;
+        self.worker.run(move || {
             let picture = build(&device, scene, &camera, shape, &progress);
             let picture = in_scene(&options, picture).map(Box::new);
+            // Not later than the window's thread, which is told below.
+            drop(device);
             let _ = proxy.send_event(Event::Loaded(ticket, Progress::Ready(picture)));
-        }));
+        });
     }
 }
 

@@ -19,6 +19,7 @@ mod stage;
 mod startup;
 mod waiting;
 mod watch;
+mod worker;
 
 use super::args::{SceneOptions, ViewOptions};
 use super::report;
@@ -40,6 +41,7 @@ use winit::application::ApplicationHandler;
 use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::WindowId;
+use worker::Worker;
 
 /// Time between two looks at how far loading is.
 const LOOK: Duration = Duration::from_millis(50);
@@ -69,7 +71,7 @@ fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
     let proxy = event_loop.create_proxy();
     signals::listen(proxy.clone())?;
     let first = Aim::First(options.camera.clone());
-    let loading = Loading::start(options.scene.clone(), first, 0, &proxy);
+    let loading = Loading::start(options.scene.clone(), first, 0, &proxy, Worker::start());
     let mut viewer = Viewer {
         options,
         size,
@@ -83,6 +85,7 @@ fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
         waiting: Waiting::default(),
         loading: Some(loading),
         ticket: 0,
+        worker: None,
         abandoned: Vec::new(),
         captures: Captures::default(),
         notice: None,
@@ -118,6 +121,8 @@ struct Viewer<'a> {
     loading: Option<Loading>,
     /// Of the last job.
     ticket: u64,
+    /// Of the last job that has come to its end.
+    worker: Option<Worker>,
     /// Threads that still use the device for scenes that nobody waits for.
     abandoned: Vec<JoinHandle<()>>,
     captures: Captures,
@@ -214,8 +219,12 @@ impl Viewer<'_> {
 
     /// After the loop: how it went.
     fn close(mut self) -> Result<()> {
-        // What uses the device goes first.
+        // What is under way on the device may take seconds to end.
+        if let Some(stage) = &self.stage {
+            stage.window.set_visible(false);
+        }
         self.abandon();
+        self.abandoned.extend(self.worker.take().map(Worker::retire));
         for thread in self.abandoned.drain(..) {
             // A panic was reported on its thread.
             let _ = thread.join();

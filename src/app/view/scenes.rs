@@ -4,6 +4,7 @@ use super::Viewer;
 use super::loading::{Aim, Loading, Progress};
 use super::picture::{Picture, Shape};
 use super::pilot::Pilot;
+use super::worker::Worker;
 use crate::app::args::SceneOptions;
 use crate::app::terminal::complain;
 use crate::error::{Error, Result};
@@ -14,13 +15,19 @@ use std::path::PathBuf;
 impl Viewer<'_> {
     /// A job has come to something. An error where there is no picture to go on with.
     pub(super) fn progress(&mut self, ticket: u64, progress: Progress) -> Result<()> {
-        let Some(loading) = self.loading.take_if(|loading| loading.ticket == ticket) else {
+        let Some(mut loading) = self.loading.take_if(|loading| loading.ticket == ticket) else {
             return Ok(());
         };
-        let result = match progress {
-            Progress::Read(scene) => scene.and_then(|scene| self.upload(loading, scene)),
-            Progress::Ready(picture) => picture.and_then(|picture| self.present(&loading, picture)),
+        let (result, ends) = match progress {
+            Progress::Read(Ok(scene)) => (self.upload(&mut loading, scene), false),
+            Progress::Read(Err(error)) => (Err(error), true),
+            Progress::Ready(picture) => (picture.and_then(|picture| self.present(&loading, picture)), true),
         };
+        if ends || result.is_err() {
+            self.worker = Some(loading.end());
+        } else {
+            self.loading = Some(loading);
+        }
         self.redraw();
         match result {
             Err(error) if self.picture.is_some() => {
@@ -38,7 +45,7 @@ impl Viewer<'_> {
     }
 
     /// The files are read: on to the device.
-    fn upload(&mut self, mut loading: Loading, scene: Scene) -> Result<()> {
+    fn upload(&mut self, loading: &mut Loading, scene: Scene) -> Result<()> {
         if loading.aim != Aim::Other {
             // Also where the device refuses it: then a file has to change.
             self.watch.files(&scene.files, loading.since);
@@ -55,7 +62,6 @@ impl Viewer<'_> {
             _ => scene.cameras[home].clone(),
         };
         loading.upload(&stage.device, scene, &camera, shape);
-        self.loading = Some(loading);
         Ok(())
     }
 
@@ -111,7 +117,8 @@ impl Viewer<'_> {
     fn load(&mut self, options: SceneOptions, aim: Aim) {
         self.abandon();
         self.ticket += 1;
-        self.loading = Some(Loading::start(options, aim, self.ticket, &self.proxy));
+        let worker = self.worker.take().unwrap_or_else(Worker::start);
+        self.loading = Some(Loading::start(options, aim, self.ticket, &self.proxy, worker));
         self.redraw();
     }
 
