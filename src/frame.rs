@@ -4,6 +4,7 @@
 
 mod adopt;
 mod cut;
+mod encoded;
 mod pick;
 mod results;
 mod retune;
@@ -67,7 +68,7 @@ impl Frame {
     pub fn new(device: &Arc<Device>, scene: &Arc<GpuScene>, settings: FrameSettings) -> Result<Self> {
         let inputs = pass_inputs(device, scene, &settings);
         let work = work(device, scene, &settings);
-        let targets = Targets::new(device, settings.size, work.resolve)?;
+        let targets = Targets::new(device, settings.size, work.resolve, settings.encoding)?;
         let tiles = tiles_of(settings.size);
         let pass_names = pass_names(work);
         let mask = if work.masks { work.area.div_ceil(shared::AREA_MASK_LIGHTS) } else { 0 };
@@ -139,7 +140,7 @@ impl Frame {
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn resize(&mut self, size: [u32; 2]) -> Result<()> {
         self.settings.size = size;
-        self.targets = Targets::new(&self.device, size, self.work.resolve)?;
+        self.targets = Targets::new(&self.device, size, self.work.resolve, self.settings.encoding)?;
         self.prepass.resize(&self.device, &self.targets)?;
         self.forward.resize(&self.device, &self.targets)?;
         let now = self.lists.capacity;
@@ -369,6 +370,7 @@ fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
         masks: area > AREA_LIGHTS_WITHOUT_MASKS && !settings.brute_force,
         luminaires: !scene.area.luminaires.is_empty(),
         tonemap: settings.tonemap,
+        encoding: settings.encoding,
     }
 }
 

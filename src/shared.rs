@@ -161,6 +161,14 @@ shared! {
         SPEC_PERSPECTIVE = 9;
         /// Tone curve: 0 none, 1 ACES, 2 AgX.
         SPEC_TONEMAP = 10;
+        /// Encoding of the picture: `ENCODING_*`.
+        SPEC_ENCODING = 61;
+        /// `Encoding::Srgb`.
+        ENCODING_SRGB = 0;
+        /// `Encoding::ScRgb`.
+        ENCODING_SCRGB = 1;
+        /// `Encoding::Hdr10`.
+        ENCODING_HDR10 = 2;
         /// Arbitrary output variable to write: `AOV_*`.
         SPEC_AOV = 11;
         /// World position.

@@ -2,17 +2,26 @@
 
 use crate::error::Result;
 use crate::gpu::{Device, Format, Image, ImageDescription, Use};
+use crate::scene::settings::Encoding;
 use crate::shared::NO_CLUSTER;
 use std::sync::Arc;
 
 /// Scene-linear colour: float32, because subpasses and samples add up in it.
 pub const HDR_FORMAT: Format = Format::R32G32B32A32_SFLOAT;
-/// Display-referred colour, encoded by the present pass.
-pub const LDR_FORMAT: Format = Format::R8G8B8A8_UNORM;
 /// The normal's bits, and a word of material and variant.
 pub const SURFACE_FORMAT: Format = Format::R32G32B32A32_UINT;
 /// Reversed depth.
 pub const DEPTH_FORMAT: Format = Format::D32_SFLOAT;
+
+/// Display-referred colour, encoded by the present pass.
+#[must_use]
+pub fn ldr_format(encoding: Encoding) -> Format {
+    match encoding {
+        Encoding::Srgb => Format::R8G8B8A8_UNORM,
+        // Half floats keep 11 bits: enough for the 10 of HDR10.
+        Encoding::ScRgb | Encoding::Hdr10 => Format::R16G16B16A16_SFLOAT,
+    }
+}
 
 /// The frame's images, all of one size.
 pub struct Targets {
@@ -34,7 +43,7 @@ impl Targets {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
-    pub fn new(device: &Arc<Device>, size: [u32; 2], surface: bool) -> Result<Self> {
+    pub fn new(device: &Arc<Device>, size: [u32; 2], surface: bool, encoding: Encoding) -> Result<Self> {
         let image = |name, format, uses: &[Use]| {
             Image::new(device, &ImageDescription { name, format, size, layers: None, mips: 1, uses })
         };
@@ -54,7 +63,7 @@ impl Targets {
             surface: surface_image(device, surface.then_some(size))?,
             depth: image("depth", DEPTH_FORMAT, &[Use::DepthWrite, Use::DepthRead, Use::TransferRead])?,
             hdr: image("hdr", HDR_FORMAT, &hdr)?,
-            ldr: Arc::new(image("ldr", LDR_FORMAT, &[Use::ColorWrite, Use::TransferRead])?),
+            ldr: Arc::new(image("ldr", ldr_format(encoding), &[Use::ColorWrite, Use::TransferRead])?),
             cluster_ids,
         })
     }

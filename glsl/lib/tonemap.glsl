@@ -1,10 +1,31 @@
-// Tone curves: scene-linear Rec.709 to display-linear in [0, 1], and the sRGB encoding.
+// Tone curves: scene-linear Rec.709 to display-linear, where 1 is white, and the encodings of displays.
 #ifndef LIB_TONEMAP_GLSL
 #define LIB_TONEMAP_GLSL
 
 vec3 srgb_encode(vec3 c) {
     c = clamp(c, 0.0, 1.0);
     return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));
+}
+
+// Luminance of white on a display of high dynamic range, cd/m² (ITU-R BT.2408); its brightest.
+const float WHITE = 203.0;
+const float PEAK = 10000.0;
+
+// IEC 61966-2-2 without its offset: linear, 1 is 80 cd/m².
+vec3 scrgb_encode(vec3 c) {
+    return clamp(c * WHITE, 0.0, PEAK) / 80.0;
+}
+
+// Rec. 709 to Rec. 2020 primaries (ITU-R BT.2087), then the perceptual quantizer (SMPTE ST 2084).
+vec3 hdr10_encode(vec3 c) {
+    const mat3 to_2020 = mat3(
+            0.627403896, 0.069097289, 0.016391439,  //
+            0.329283038, 0.919540395, 0.088013308,  //
+            0.043313066, 0.011362316, 0.895595253);
+    // Below the bound its powers stay finite.
+    vec3 y = clamp(to_2020 * min(c, vec3(1e6)) * (WHITE / PEAK), 0.0, 1.0);
+    vec3 p = pow(y, vec3(0.1593017578125));
+    return pow((0.8359375 + 18.8515625 * p) / (1.0 + 18.6875 * p), vec3(78.84375));
 }
 
 // ACES RRT and sRGB ODT, the rational fit of Hill.

@@ -39,13 +39,18 @@ pub(super) enum Command {
   R           reset the camera
   C           print the camera as TOML, and copy it to the clipboard
   V           wait for the display's refresh, or not
-  O           panels: times, counts, settings
+  F5          load the scene again, as also happens when one of its files changes
+  O           panels: times, counts, view, settings, what is picked
   I           inspect what is under the pointer
-  F2 … F11    albedo, normal, roughness, depth, depth slice, cluster, lights evaluated, lights evaluated per useful
-              one, estimated error, bound of the closed form's error; again: the picture
+  F2 F3 F4    debug views: albedo, normal, roughness; again: the picture
+  F6 F7 F8    depth, depth slice, cluster
+  F9 F10 F11  lights evaluated, lights evaluated per useful one, estimated error
+  B           bound of the error of area lights' closed form
   X           beside the reference, the error against it, the picture alone
-  ?           the keys; also F1
+  ?           these keys; also F1
+  F12         save the picture to amas_0001.png and .exr, or the next free number
   Esc         stop loading; else close
+A scene or an OBJ file that is dropped on the window is shown there.
 
 Example:
   amas view scene.toml --size 1280x720 --camera main")]
@@ -155,12 +160,18 @@ pub(super) struct ViewOptions {
     /// Close after N pictures, a sample each, rendered one after the other
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) frames: Option<u32>,
+    /// Use high dynamic range where the display offers it: scRGB or HDR10, white at 203 cd/m²
+    #[arg(long)]
+    pub(super) hdr: bool,
     /// A picture (.exr or .pfm) to compare with, instead of the reference
     #[arg(long, value_name = "FILE")]
     pub(super) compare: Option<PathBuf>,
     /// Sources of the shaders, compiled again when they change [default: those of the checkout that amas was built from]
     #[arg(long, value_name = "DIR")]
     pub(super) glsl: Option<PathBuf>,
+    /// Print how long it took until window and picture were there
+    #[arg(long)]
+    pub(super) startup: bool,
     /// Do not wait for the display's refresh
     #[arg(long)]
     pub(super) no_vsync: bool,

@@ -1,6 +1,6 @@
 //! What can be read from a frame once it is rendered.
 
-use super::{Frame, FrameSettings, tiles, tiles_of};
+use super::{Frame, FrameSettings, encoded, tiles, tiles_of};
 use crate::error::Result;
 use crate::gpu::{Image, Use};
 use crate::image::HdrImage;
@@ -28,7 +28,7 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn ldr(&self) -> Result<Vec<[u8; 4]>> {
-        self.targets.ldr.fetch(Use::TransferRead, Use::TransferRead)
+        encoded::fetch_srgb(&self.targets.ldr, self.settings.encoding)
     }
 
     /// The display-referred picture on the device, in use [`Use::TransferRead`].

@@ -12,14 +12,19 @@ impl Frame {
     /// As [`Frame::new`].
     pub fn retune(&mut self, settings: FrameSettings) -> Result<()> {
         let next = Work { folded: self.work.folded, ..work(&self.device, &self.scene, &settings) };
-        let kept = FrameSettings { size: settings.size, perspective: settings.perspective, ..self.settings };
+        let kept = FrameSettings {
+            size: settings.size,
+            perspective: settings.perspective,
+            encoding: settings.encoding,
+            ..self.settings
+        };
         let curve = Work { tonemap: next.tonemap, ..self.work };
         if kept != self.settings || curve != next || settings.brute_force != self.settings.brute_force {
             return self.remake(settings);
         }
         if next.tonemap != self.work.tonemap {
             let inputs = pass_inputs(&self.device, &self.scene, &settings);
-            self.forward.set_tonemap(&inputs, next.tonemap)?;
+            self.forward.set_looks(&inputs, (next.tonemap, next.encoding))?;
         }
         self.work = next;
         self.settings = settings;

@@ -1,6 +1,6 @@
 //! What a frame is made for, and what changes from picture to picture.
 
-use crate::scene::settings::{FrontEnd, Tonemap};
+use crate::scene::settings::{Encoding, FrontEnd, Tonemap};
 use indicatif::ProgressBar;
 
 use crate::scene::{Camera, Projection, RenderSettings};
@@ -12,6 +12,8 @@ pub struct FrameSettings {
     pub size: [u32; 2],
     /// Tone curve.
     pub tonemap: Tonemap,
+    /// Encoding of the display-referred picture; sRGB but for a window that shows more.
+    pub encoding: Encoding,
     /// Radiance where no surface is.
     pub background: [f32; 3],
     /// Relative error that a light may have.
@@ -35,6 +37,7 @@ impl FrameSettings {
         Self {
             size: render.size,
             tonemap: render.tonemap,
+            encoding: Encoding::Srgb,
             background: render.background,
             light_error: render.light_error,
             max_lights_per_cluster: render.max_lights_per_cluster,

@@ -46,7 +46,8 @@ impl Frame {
     #[cfg(feature = "viewer")]
     pub fn develop_pass(&self) -> Result<Develop> {
         let inputs = pass_inputs(&self.device, &self.scene, &self.settings);
-        Develop::new(&inputs, self.settings.tonemap, self.settings.size)
+        let looks = (self.settings.tonemap, self.settings.encoding);
+        Develop::new(&inputs, looks, self.settings.size)
     }
 
     /// Develops a scene-linear picture, four numbers a pixel, times `scale`.

@@ -1,6 +1,7 @@
 //! The device: chosen by what amas needs, with one queue, one command pool and the allocator.
 
 use super::allocation::Memory;
+use super::cache::Cache;
 use super::candidate::{Candidate, Presentation, candidates, choose};
 use super::instance::Instance;
 use super::requirements::Report;
@@ -9,6 +10,7 @@ use crate::error::{Error, Result};
 use ash::vk;
 use std::collections::HashMap;
 use std::ffi::CStr;
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
 /// SPIR-V in the place of what the program was built with, by the names of the shaders.
@@ -53,6 +55,7 @@ pub struct Device {
     queue: vk::Queue,
     pub(super) family: u32,
     pool: vk::CommandPool,
+    pub(super) cache: Cache,
     // Shaders that changed since the program was built, by their names.
     replaced: RwLock<Replaced>,
     // Queue and pool are used by one thread at a time.
@@ -67,19 +70,20 @@ impl Device {
     /// # Errors
     /// [`Error::NoDevice`] where none answers or none suffices, with the reason for each.
     pub fn open(options: &Options) -> Result<Arc<Self>> {
-        Self::open_on(Instance::new(options.validate, &[])?, options, None)
+        Self::open_on(Instance::new(options.validate)?, options, None, None)
     }
 
-    /// Opens a device that can also present, where a presentation is given.
+    /// Opens a device that can also present, where a presentation is given; pipelines are kept in the folder, if there is one.
     pub(super) fn open_on(
         instance: Arc<Instance>,
         options: &Options,
         presentation: Option<&dyn Presentation>,
+        cache: Option<&Path>,
     ) -> Result<Arc<Self>> {
         let candidates = candidates(&instance, presentation)?;
         let chosen = choose(candidates, options.device.as_deref())?;
         let extensions = presentation.map_or(&[][..], |_| &[ash::khr::swapchain::NAME]);
-        Self::create(instance, chosen, extensions).map(Arc::new)
+        Self::create(instance, chosen, extensions, cache).map(Arc::new)
     }
 
     /// Every device of the machine, with what it lacks.
@@ -87,11 +91,16 @@ impl Device {
     /// # Errors
     /// [`Error::NoDevice`] without a loader.
     pub fn enumerate() -> Result<Vec<DeviceInfo>> {
-        let instance = Instance::new(false, &[])?;
+        let instance = Instance::new(false)?;
         Ok(candidates(&instance, None)?.into_iter().map(|candidate| candidate.info).collect())
     }
 
-    fn create(instance: Arc<Instance>, chosen: Candidate, extensions: &[&'static CStr]) -> Result<Self> {
+    fn create(
+        instance: Arc<Instance>,
+        chosen: Candidate,
+        extensions: &[&'static CStr],
+        cache: Option<&Path>,
+    ) -> Result<Self> {
         let extensions: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
         let priorities = [1.0];
         let queues = [vk::DeviceQueueCreateInfo::default()
@@ -117,6 +126,14 @@ impl Device {
         let pool = command_pool(&raw, chosen.family)?;
         let debug = instance.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw));
         let memory = Memory::new(&instance.raw, &raw, chosen.physical)?;
+        let cache = cache.map_or_else(
+            || Ok(Cache::none()),
+            |folder| {
+                // SAFETY: the device belongs to the instance.
+                let properties = unsafe { instance.raw.get_physical_device_properties(chosen.physical) };
+                Cache::below(folder, &raw, &properties)
+            },
+        )?;
         Ok(Self {
             memory,
             debug,
@@ -129,6 +146,7 @@ impl Device {
             queue,
             family: chosen.family,
             pool,
+            cache,
             replaced: RwLock::default(),
             turn: Mutex::new(()),
             instance,
@@ -146,6 +164,11 @@ impl Device {
     #[must_use]
     pub fn is_cpu(&self) -> bool {
         self.info.kind == "cpu"
+    }
+
+    /// Writes the pipelines compiled so far to the folder that keeps them, if there is one.
+    pub fn keep_pipelines(&self) {
+        self.cache.save(&self.raw);
     }
 
     /// Texels along a side of the largest texture.
@@ -283,6 +306,7 @@ fn command_pool(raw: &ash::Device, family: u32) -> Result<vk::CommandPool> {
 impl Drop for Device {
     fn drop(&mut self) {
         self.memory.close();
+        self.cache.destroy(&self.raw);
         // SAFETY: everything made from the device holds it by `Arc` and is gone; nothing is pending after `run`.
         unsafe { self.raw.destroy_command_pool(self.pool, None) };
         // SAFETY: as above.

@@ -79,10 +79,11 @@ impl Flight {
             .wait_dst_stage_mask(&stages)
             .command_buffers(&commands)
             .signal_semaphores(&signals)];
-        // SAFETY: the buffer is fully recorded, the fence unsignalled, and this thread has the queue.
-        self.device
-            .with_queue(|queue| unsafe { self.device.raw.queue_submit(queue, &submit, self.landed) })
-            .called("vkQueueSubmit")?;
+        let call = |queue| {
+            // SAFETY: the buffer is fully recorded, the fence unsignalled, and this thread has the queue.
+            unsafe { self.device.raw.queue_submit(queue, &submit, self.landed) }
+        };
+        self.device.with_queue(call).called("vkQueueSubmit")?;
         self.picture = Some(picture.clone());
         Ok(())
     }

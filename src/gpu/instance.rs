@@ -33,8 +33,19 @@ pub(super) struct Instance {
 }
 
 impl Instance {
-    /// Loads Vulkan with these extensions. With `validate`, turns on the validation layers with synchronisation checks.
-    pub(super) fn new(validate: bool, extensions: &[&'static CStr]) -> Result<Arc<Self>> {
+    /// Loads Vulkan. With `validate`, turns on the validation layers with synchronisation checks.
+    pub(super) fn new(validate: bool) -> Result<Arc<Self>> {
+        Self::with(validate, &[], &[])
+    }
+
+    /// As [`Instance::new`], with these extensions, and with the colour spaces that windows may have where the driver knows
+    /// them.
+    #[cfg(feature = "viewer")]
+    pub(super) fn for_window(validate: bool, extensions: &[&'static CStr]) -> Result<Arc<Self>> {
+        Self::with(validate, extensions, &[ash::ext::swapchain_colorspace::NAME])
+    }
+
+    fn with(validate: bool, extensions: &[&'static CStr], welcome: &[&'static CStr]) -> Result<Arc<Self>> {
         // SAFETY: the loader's library is trusted to be Vulkan's; it stays loaded as long as `Instance`.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoDevice {
             cause: format!("the Vulkan loader cannot be loaded ({error})"),
@@ -49,6 +60,7 @@ impl Instance {
             require_validation(&entry)?;
         }
         let mut wanted = extensions.to_vec();
+        wanted.extend(welcome.iter().copied().filter(|name| has(&found, name)));
         wanted.extend(debug_utils.then_some(ash::ext::debug_utils::NAME));
         let raw = create(&entry, validate, &wanted)?;
         let mut instance = Self { raw, log: None, debug_utils, messenger: None, entry };

@@ -10,6 +10,7 @@
 mod allocation;
 mod barrier;
 mod buffer;
+mod cache;
 mod candidate;
 mod command;
 #[cfg(feature = "viewer")]
@@ -45,6 +46,8 @@ pub use render_pass::{Attachment, Framebuffer, Outside, RenderPass, Subpass};
 pub use requirements::{Check, Report};
 pub use sampler::Sampler;
 pub use shader::{Shader, Stage, shaders};
+#[cfg(feature = "viewer")]
+pub use surface::WindowOptions;
 #[cfg(feature = "viewer")]
 pub use swapchain::{Shown, Swapchain};
 

@@ -137,7 +137,7 @@ impl ComputePipeline {
         let info =
             [vk::ComputePipelineCreateInfo::default().stage(module.stage(&constants)).layout(layout.raw)];
         // SAFETY: module and layout are alive; the shader's bindings come from the layout's tables.
-        let raws = unsafe { device.raw.create_compute_pipelines(vk::PipelineCache::null(), &info, None) }
+        let raws = unsafe { device.raw.create_compute_pipelines(device.cache.raw, &info, None) }
             .map_err(|(_, result)| super::failed(format!("pipeline {}", shader.name), result))?;
         device.name(raws[0], shader.name);
         Ok(Self { raw: raws[0], layout: layout.clone(), device: device.clone() })
@@ -195,7 +195,7 @@ impl GraphicsPipeline {
             .render_pass(description.pass.raw)
             .subpass(description.subpass)];
         // SAFETY: everything `info` points to outlives the call.
-        let raws = unsafe { device.raw.create_graphics_pipelines(vk::PipelineCache::null(), &info, None) }
+        let raws = unsafe { device.raw.create_graphics_pipelines(device.cache.raw, &info, None) }
             .map_err(|(_, result)| super::failed(format!("pipeline {}", description.name), result))?;
         device.name(raws[0], description.name);
         Ok(Self { raw: raws[0], layout: layout.clone(), device: device.clone() })

@@ -7,15 +7,38 @@ use super::instance::{Instance, has};
 use super::requirements::Check;
 use super::swapchain::Swapchain;
 use crate::error::{Error, Result};
+use crate::scene::settings::Encoding;
 use ash::{khr, vk};
 use std::ffi::CStr;
+use std::path::PathBuf;
 use std::sync::Arc;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::raw_window_handle::{HandleError, HasDisplayHandle, HasWindowHandle, RawDisplayHandle};
 use winit::window::Window;
 
+type Offer = (vk::Format, vk::ColorSpaceKHR, Encoding);
+
 /// Not the sRGB formats: the present pass has encoded the picture already.
-const FORMATS: [vk::Format; 2] = [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM];
+const STANDARD: [Offer; 2] = [
+    (vk::Format::B8G8R8A8_UNORM, vk::ColorSpaceKHR::SRGB_NONLINEAR, Encoding::Srgb),
+    (vk::Format::R8G8B8A8_UNORM, vk::ColorSpaceKHR::SRGB_NONLINEAR, Encoding::Srgb),
+];
+
+/// High dynamic range, in order of preference.
+const HIGH: [Offer; 3] = [
+    (vk::Format::R16G16B16A16_SFLOAT, vk::ColorSpaceKHR::EXTENDED_SRGB_LINEAR_EXT, Encoding::ScRgb),
+    (vk::Format::A2B10G10R10_UNORM_PACK32, vk::ColorSpaceKHR::HDR10_ST2084_EXT, Encoding::Hdr10),
+    (vk::Format::A2R10G10B10_UNORM_PACK32, vk::ColorSpaceKHR::HDR10_ST2084_EXT, Encoding::Hdr10),
+];
+
+/// What a window asks for beyond a device.
+#[derive(Clone, Debug, Default)]
+pub struct WindowOptions {
+    /// High dynamic range, where the window offers it.
+    pub high: bool,
+    /// Folder in which compiled pipelines are kept.
+    pub cache: Option<PathBuf>,
+}
 
 /// Where a window's pictures go.
 pub(super) struct Surface {
@@ -37,12 +60,13 @@ impl Device {
         options: &Options,
         window: &Arc<Window>,
         display: OwnedDisplayHandle,
+        wanted: &WindowOptions,
     ) -> Result<(Arc<Self>, Swapchain)> {
         let raw = display.display_handle().map_err(no_handle)?.as_raw();
-        let instance = Instance::new(options.validate, &required_extensions(raw)?)?;
+        let instance = Instance::for_window(options.validate, &required_extensions(raw)?)?;
         let surface = Surface::new(instance.clone(), window.clone(), display)?;
-        let device = Self::open_on(instance, options, Some(&surface))?;
-        let swapchain = Swapchain::new(&device, surface)?;
+        let device = Self::open_on(instance, options, Some(&surface), wanted.cache.as_deref())?;
+        let swapchain = Swapchain::new(&device, surface, wanted.high)?;
         Ok((device, swapchain))
     }
 }
@@ -67,16 +91,16 @@ impl Surface {
         })
     }
 
-    /// A format that the present pass's bytes can be shown in; `None` where there is none.
+    /// A format that the present pass's values can be shown in, and how it encodes them: with `high` one of high dynamic range
+    /// where there is one, else sRGB. `None` where there is neither.
     pub(super) fn format(
         &self,
         physical: vk::PhysicalDevice,
-    ) -> Result<Option<vk::SurfaceFormatKHR>, vk::Result> {
+        high: bool,
+    ) -> Result<Option<(vk::SurfaceFormatKHR, Encoding)>, vk::Result> {
         // SAFETY: the device presents to the surface.
         let found = unsafe { self.loader.get_physical_device_surface_formats(physical, self.raw) }?;
-        Ok(found.into_iter().find(|offer| {
-            FORMATS.contains(&offer.format) && offer.color_space == vk::ColorSpaceKHR::SRGB_NONLINEAR
-        }))
+        Ok(format(&found, high))
     }
 
     pub(super) fn capabilities(
@@ -141,7 +165,7 @@ impl Presentation for Surface {
         if family.is_some() {
             rows.extend([
                 row("VK_KHR_swapchain", self.has_swapchains(physical)),
-                row("a surface with 8-bit UNORM colour", matches!(self.format(physical), Ok(Some(_)))),
+                row("a surface with 8-bit UNORM colour", matches!(self.format(physical, false), Ok(Some(_)))),
                 row("a surface that can be copied to", self.takes_copies(physical)),
             ]);
         }
@@ -154,6 +178,14 @@ impl Drop for Surface {
         // SAFETY: the swapchain holds the surface, and is gone; instance, window and display are still held.
         unsafe { self.loader.destroy_surface(self.raw, None) };
     }
+}
+
+fn format(offered: &[vk::SurfaceFormatKHR], high: bool) -> Option<(vk::SurfaceFormatKHR, Encoding)> {
+    let wanted = if high { &HIGH[..] } else { &[] };
+    wanted.iter().chain(&STANDARD).find_map(|&(format, color_space, encoding)| {
+        let wanted = vk::SurfaceFormatKHR { format, color_space };
+        offered.contains(&wanted).then_some((wanted, encoding))
+    })
 }
 
 fn required_extensions(display: RawDisplayHandle) -> Result<Vec<&'static CStr>> {
@@ -250,6 +282,17 @@ mod tests {
         assert_eq!(image_count(&capabilities(640)), 3);
         let alpha = composite_alpha(&capabilities(640));
         assert_eq!(alpha, vk::CompositeAlphaFlagsKHR::INHERIT);
+    }
+
+    #[test]
+    fn high_dynamic_range_is_taken_where_it_is_asked_for_and_offered() {
+        let [standard, high, hdr10] = [STANDARD[1], HIGH[0], HIGH[2]]
+            .map(|(format, color_space, _)| vk::SurfaceFormatKHR { format, color_space });
+        assert_eq!(format(&[hdr10, standard, high], true), Some((high, Encoding::ScRgb)));
+        assert_eq!(format(&[standard, hdr10], true), Some((hdr10, Encoding::Hdr10)));
+        assert_eq!(format(&[standard], true), Some((standard, Encoding::Srgb)));
+        assert_eq!(format(&[hdr10, high, standard], false), Some((standard, Encoding::Srgb)));
+        assert_eq!(format(&[hdr10], false), None);
     }
 
     #[test]

@@ -7,8 +7,9 @@
 use super::device::Device;
 use super::flight::{Flight, PATIENCE};
 use super::surface::{Surface, composite_alpha, extent, image_count};
-use super::{Commands, Image, Use, failed};
+use super::{Called, Commands, Image, Use, failed};
 use crate::error::Result;
+use crate::scene::settings::Encoding;
 use ash::{khr, vk};
 use std::sync::Arc;
 
@@ -37,6 +38,9 @@ pub struct Swapchain {
     copied: Vec<vk::Semaphore>,
     size: [u32; 2],
     vsync: bool,
+    // Whether a format of high dynamic range is wanted.
+    high: bool,
+    encoding: Encoding,
     // The surface is gone, and is made again before the next images.
     lost: bool,
     flights: [Flight; FLIGHTS],
@@ -48,8 +52,12 @@ pub struct Swapchain {
 
 impl Swapchain {
     /// A swapchain of the device that was opened for the surface, without images; [`Swapchain::resize`] makes them.
-    pub(super) fn new(device: &Arc<Device>, surface: Surface) -> Result<Self> {
+    pub(super) fn new(device: &Arc<Device>, surface: Surface, high: bool) -> Result<Self> {
+        let format = surface.format(device.physical, high).called("vkGetPhysicalDeviceSurfaceFormatsKHR")?;
         Ok(Self {
+            high,
+            // Without a format nothing is ever shown: `make` fails.
+            encoding: format.map_or(Encoding::Srgb, |(_, encoding)| encoding),
             raw: vk::SwapchainKHR::null(),
             images: Vec::new(),
             copied: Vec::new(),
@@ -68,6 +76,12 @@ impl Swapchain {
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         self.size
+    }
+
+    /// How pictures for it are to be encoded.
+    #[must_use]
+    pub fn encoding(&self) -> Encoding {
+        self.encoding
     }
 
     /// Whether pictures wait for the display's refresh; from the next [`Swapchain::resize`] on.
@@ -108,7 +122,8 @@ impl Swapchain {
         if size.contains(&0) {
             return Ok(false);
         }
-        let format = self.surface.format(physical)?.ok_or(vk::Result::ERROR_FORMAT_NOT_SUPPORTED)?;
+        let format = self.surface.format(physical, self.high)?;
+        let (format, encoding) = format.ok_or(vk::Result::ERROR_FORMAT_NOT_SUPPORTED)?;
         let info = vk::SwapchainCreateInfoKHR::default()
             .surface(self.surface.raw)
             .min_image_count(image_count(&capabilities))
@@ -128,6 +143,7 @@ impl Swapchain {
         self.destroy();
         self.raw = raw;
         self.size = size;
+        self.encoding = encoding;
         // SAFETY: the swapchain is alive.
         self.images = unsafe { self.loader.get_swapchain_images(raw) }?;
         for _ in &self.images {
@@ -137,11 +153,12 @@ impl Swapchain {
         Ok(true)
     }
 
-    /// Sends a picture, in use [`Use::TransferRead`], to the window. It may be rendered anew right away, and dropped.
+    /// Sends a picture, in use [`Use::TransferRead`], to the window. It may be rendered anew right away, and dropped. Calls
+    /// `presenting` when nothing is left but to tell the window.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn show(&mut self, picture: &Arc<Image>) -> Result<Shown> {
+    pub fn show(&mut self, picture: &Arc<Image>, presenting: impl FnOnce()) -> Result<Shown> {
         if self.images.is_empty() {
             return Ok(Shown::OutOfDate);
         }
@@ -158,6 +175,7 @@ impl Swapchain {
         };
         self.copy(picture, index as usize)?;
         self.next = (self.next + 1) % FLIGHTS;
+        presenting();
         Ok(match self.present(index)? {
             Shown::Yes if misfit => Shown::Misfit,
             shown => shown,

@@ -7,9 +7,9 @@ use crate::gpu::{
     Attachment, DescriptorSets, Device, Framebuffer, Image, ImageDescription, Outside, RenderPass, Subpass,
     Use,
 };
-use crate::scene::settings::Tonemap;
+use crate::scene::settings::{Encoding, Tonemap};
 use crate::shared;
-use crate::targets::{HDR_FORMAT, LDR_FORMAT};
+use crate::targets::{HDR_FORMAT, ldr_format};
 use std::sync::Arc;
 
 /// The pass and its images.
@@ -28,18 +28,19 @@ impl Develop {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, tonemap: Tonemap, size: [u32; 2]) -> Result<Self> {
+    pub fn new(inputs: &PassInputs<'_>, looks: (Tonemap, Encoding), size: [u32; 2]) -> Result<Self> {
+        let format = ldr_format(looks.1);
         let image = |name, format, uses: &[Use]| {
             Image::new(inputs.device, &ImageDescription { name, format, size, layers: None, mips: 1, uses })
         };
         let hdr = image("linear", HDR_FORMAT, &[Use::TransferWrite, Use::InputRead])?;
-        let ldr = image("developed", LDR_FORMAT, &[Use::ColorWrite, Use::TransferRead])?;
+        let ldr = image("developed", format, &[Use::ColorWrite, Use::TransferRead])?;
         let pass = RenderPass::new(
             inputs.device,
             "develop",
             &[
                 Attachment { format: HDR_FORMAT, before: Use::InputRead, after: Use::InputRead },
-                Attachment { format: LDR_FORMAT, before: Use::Nothing, after: Use::TransferRead },
+                Attachment { format, before: Use::Nothing, after: Use::TransferRead },
             ],
             &[Subpass { color: &[1], input: &[0], depth: None }],
             &[],
@@ -53,7 +54,7 @@ impl Develop {
         set.get(0).image(shared::frame::FRAME_HDR, &hdr, Use::InputRead);
         Ok(Self {
             framebuffer: Framebuffer::new(inputs.device, &pass, &[&hdr, &ldr])?,
-            present: Present::new(inputs, tonemap, (&pass, 0))?,
+            present: Present::new(inputs, looks, (&pass, 0))?,
             pass,
             set,
             hdr,

@@ -8,8 +8,8 @@ use super::present::Present;
 use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{Attachment, Commands, Device, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use};
-use crate::scene::settings::Tonemap;
-use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, LDR_FORMAT, Targets};
+use crate::scene::settings::{Encoding, Tonemap};
+use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets, ldr_format};
 use std::sync::Arc;
 
 const HDR: u32 = 0;
@@ -43,6 +43,8 @@ pub struct Work {
     pub luminaires: bool,
     /// Tone curve.
     pub tonemap: Tonemap,
+    /// Encoding of the picture.
+    pub encoding: Encoding,
 }
 
 /// The forward pass.
@@ -76,20 +78,20 @@ impl Forward {
         Ok(Self {
             direct: Direct::new(inputs, work, (&first, 0))?,
             indirect,
-            present: Present::new(inputs, work.tonemap, (&first, last))?,
+            present: Present::new(inputs, (work.tonemap, work.encoding), (&first, last))?,
             first,
             further,
             framebuffer,
         })
     }
 
-    /// Changes the tone curve.
+    /// Changes the tone curve; the encoding has to be that of the targets.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn set_tonemap(&mut self, inputs: &PassInputs<'_>, tonemap: Tonemap) -> Result<()> {
+    pub fn set_looks(&mut self, inputs: &PassInputs<'_>, looks: (Tonemap, Encoding)) -> Result<()> {
         let last = if self.indirect.is_some() { 2 } else { 1 };
-        self.present = Present::new(inputs, tonemap, (&self.first, last))?;
+        self.present = Present::new(inputs, looks, (&self.first, last))?;
         Ok(())
     }
 
@@ -160,7 +162,7 @@ fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<R
         "forward",
         &[
             Attachment { format: HDR_FORMAT, before: hdr_before, after: Use::TransferRead },
-            Attachment { format: LDR_FORMAT, before: Use::Nothing, after: Use::TransferRead },
+            Attachment { format: ldr_format(work.encoding), before: Use::Nothing, after: Use::TransferRead },
             Attachment { format: DEPTH_FORMAT, before: Use::DepthRead, after: Use::DepthRead },
         ],
         &subpasses,

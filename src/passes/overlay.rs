@@ -1,18 +1,19 @@
 //! The window's overlay: textured triangles over a finished picture, in a copy of it.
 //!
 //! 1. Columns of the picture, and of another beside it where there is one, are copied to the canvas.
-//! 2. One render pass draws the triangles over them; colours blend sRGB-encoded, as the canvas holds them.
+//! 2. One render pass draws the triangles over them; colours blend encoded, as the canvas holds them.
 //!
 //! The picture itself stays as it is: while the view rests, the overlay alone is drawn anew.
 
 use crate::error::Result;
 use crate::gpu::{
-    Attachment, Blend, Buffer, BufferUse, Commands, Cull, DepthTest, DescriptorSets, Device, Framebuffer,
-    GraphicsDescription, GraphicsPipeline, Image, ImageDescription, Outside, PipelineLayout, RenderPass,
-    Sampler, Specialization, Subpass, Use, Vertices, shaders,
+    Attachment, Blend, Buffer, BufferUse, Commands, Cull, DepthTest, DescriptorSets, Device, Format,
+    Framebuffer, GraphicsDescription, GraphicsPipeline, Image, ImageDescription, Outside, PipelineLayout,
+    RenderPass, Sampler, Specialization, Subpass, Use, Vertices, shaders,
 };
+use crate::scene::settings::Encoding;
 use crate::shared::{self, OverlayConstants};
-use crate::targets::LDR_FORMAT;
+use crate::targets::ldr_format;
 use bytemuck::{Pod, Zeroable};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -72,6 +73,7 @@ pub struct Overlay {
     sampler: Sampler,
     canvas: Option<Canvas>,
     textures: HashMap<u64, Texture>,
+    format: Format,
     corners: Buffer<Corner>,
     triangles: Buffer<[u32; 3]>,
     device: Arc<Device>,
@@ -88,16 +90,17 @@ struct Texture {
 }
 
 impl Overlay {
-    /// Compiles the pass.
+    /// Compiles the pass for pictures of that encoding.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(device: &Arc<Device>) -> Result<Self> {
+    pub fn new(device: &Arc<Device>, encoding: Encoding) -> Result<Self> {
+        let format = ldr_format(encoding);
         let layout = Arc::new(PipelineLayout::new(device, &[shared::overlay::BINDINGS])?);
         let pass = RenderPass::new(
             device,
             "overlay",
-            &[Attachment { format: LDR_FORMAT, before: Use::TransferWrite, after: Use::TransferRead }],
+            &[Attachment { format, before: Use::TransferWrite, after: Use::TransferRead }],
             &[Subpass { color: &[0], input: &[], depth: None }],
             &[],
             &[
@@ -112,7 +115,7 @@ impl Overlay {
                 name: "overlay",
                 vertex: shaders::OVERLAY_OVERLAY_VERT,
                 fragment: Some(shaders::OVERLAY_OVERLAY_FRAG),
-                specialization: &Specialization::default(),
+                specialization: &Specialization::default().with(shared::SPEC_ENCODING, encoding as u32),
                 vertices: Vertices::Window,
                 depth: DepthTest::Off,
                 blend: Some(Blend::Over),
@@ -128,6 +131,7 @@ impl Overlay {
             sampler: Sampler::clamped(device)?,
             canvas: None,
             textures: HashMap::new(),
+            format,
             corners: Buffer::new(device, "overlay corners", BufferUse::Stream, 0)?,
             triangles: Buffer::new(device, "overlay triangles", BufferUse::Stream, 0)?,
             device: device.clone(),
@@ -144,7 +148,7 @@ impl Overlay {
                 &self.device,
                 &ImageDescription {
                     name: "overlay texture",
-                    format: LDR_FORMAT,
+                    format: ldr_format(Encoding::Srgb),
                     size,
                     layers: None,
                     mips: 1,
@@ -172,7 +176,7 @@ impl Overlay {
         // The window may still copy what was drawn before.
         let (canvas, before) = match self.canvas.take().filter(|canvas| canvas.image.size() == size) {
             Some(canvas) => (canvas, Use::TransferRead),
-            None => (Canvas::new(&self.device, &self.pass, size)?, Use::Nothing),
+            None => (Canvas::new(&self.device, &self.pass, self.format, size)?, Use::Nothing),
         };
         grow(&self.device, &mut self.corners, drawing.corners.len())?;
         grow(&self.device, &mut self.triangles, drawing.triangles.len())?;
@@ -207,12 +211,12 @@ impl Overlay {
 }
 
 impl Canvas {
-    fn new(device: &Arc<Device>, pass: &RenderPass, size: [u32; 2]) -> Result<Self> {
+    fn new(device: &Arc<Device>, pass: &RenderPass, format: Format, size: [u32; 2]) -> Result<Self> {
         let image = Image::new(
             device,
             &ImageDescription {
                 name: "canvas",
-                format: LDR_FORMAT,
+                format,
                 size,
                 layers: None,
                 mips: 1,

@@ -1,4 +1,4 @@
-//! Subpass *present*: reads the HDR colour at its pixel; exposure, tone curve, sRGB encoding.
+//! Subpass *present*: reads the HDR colour at its pixel; exposure, tone curve, encoding.
 
 use super::{PassInputs, View};
 use crate::error::Result;
@@ -6,18 +6,22 @@ use crate::gpu::{
     Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass, Specialization,
     Vertices, shaders,
 };
-use crate::scene::settings::Tonemap;
+use crate::scene::settings::{Encoding, Tonemap};
 use crate::shared::{self, DrawConstants};
 
 /// The subpass's pipeline.
 pub struct Present(GraphicsPipeline);
 
 impl Present {
-    /// Compiles the tone curve in.
+    /// Compiles tone curve and encoding in.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, tonemap: Tonemap, at: (&RenderPass, u32)) -> Result<Self> {
+    pub fn new(
+        inputs: &PassInputs<'_>,
+        (tonemap, encoding): (Tonemap, Encoding),
+        at: (&RenderPass, u32),
+    ) -> Result<Self> {
         let curve = match tonemap {
             Tonemap::None => 0,
             Tonemap::Aces => 1,
@@ -30,7 +34,9 @@ impl Present {
                 name: "present",
                 vertex: shaders::PRESENT_FULLSCREEN_VERT,
                 fragment: Some(shaders::PRESENT_PRESENT_FRAG),
-                specialization: &Specialization::default().with(shared::SPEC_TONEMAP, curve),
+                specialization: &Specialization::default()
+                    .with(shared::SPEC_TONEMAP, curve)
+                    .with(shared::SPEC_ENCODING, encoding as u32),
                 vertices: Vertices::None,
                 depth: DepthTest::Off,
                 blend: Some(Blend::Replace),

@@ -1,5 +1,7 @@
 //! `[render]`: how the scene wants to be rendered.
 
+use crate::shared;
+
 /// `[render]` of the scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {
@@ -47,6 +49,18 @@ pub enum Tonemap {
     Aces,
     /// AgX, base contrast.
     Agx,
+}
+
+/// How the display-referred picture is encoded, for the display that shows it. Display-linear 1 is white.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub enum Encoding {
+    /// 8-bit sRGB; what is brighter than white is white.
+    Srgb = shared::ENCODING_SRGB,
+    /// Linear, 1 is 80 cd/m² (IEC 61966-2-2), white at 203 cd/m².
+    ScRgb = shared::ENCODING_SCRGB,
+    /// Rec. 2020 primaries, perceptual quantizer (SMPTE ST 2084), white at 203 cd/m².
+    Hdr10 = shared::ENCODING_HDR10,
 }
 
 impl Default for RenderSettings {

@@ -25,7 +25,7 @@ pub(crate) struct Rig {
     pub(crate) gpu_scene: Arc<GpuScene>,
     pub(crate) frame: Frame,
     pub(crate) scene: Scene,
-    _device: CheckedGpu,
+    pub(crate) _device: CheckedGpu,
 }
 
 impl Rig {

@@ -12,6 +12,7 @@ mod meshes;
 mod models;
 mod motion;
 mod obj;
+mod origin;
 mod textures;
 
 use std::io::Cursor;

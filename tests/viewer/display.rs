@@ -15,9 +15,14 @@ pub(super) struct Display {
 
 impl Display {
     pub(super) fn start() -> Self {
+        Self::of_size([320, 240])
+    }
+
+    pub(super) fn of_size([width, height]: [usize; 2]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "320x240x24"])
+            .args(["-displayfd", "1", "-screen", "0"])
+            .arg(format!("{width}x{height}x24"))
             .args(["-nolisten", "tcp", "-fbdir"])
             .arg(folder.path())
             .stdout(Stdio::piped())
@@ -52,20 +57,20 @@ impl Display {
 
 impl Drop for Display {
     fn drop(&mut self) {
-        let _ = self.server.kill();
+        // Asked to end, it removes its lock and socket; done from here, that might hit the server that has its number next.
+        let _ = Command::new("kill").arg(self.server.id().to_string()).status();
         let _ = self.server.wait();
-        // What Xvfb removes itself, unless it is killed.
-        let number = &self.name[1..];
-        let _ = std::fs::remove_file(format!("/tmp/.X{number}-lock"));
-        let _ = std::fs::remove_file(format!("/tmp/.X11-unix/X{number}"));
     }
 }
 
-/// As much of the X protocol as it takes to resize a window and to press a key.
+/// As much of the X protocol as it takes to move a window and to use keyboard and mouse.
 pub(super) struct Client {
     stream: UnixStream,
-    root: u32,
+    pub(super) root: u32,
     xtest: u8,
+    /// The next window's.
+    pub(super) id: u32,
+    events: Vec<[u8; 32]>,
 }
 
 impl Client {
@@ -82,7 +87,9 @@ impl Client {
         // The first screen follows the vendor's name and the pixmap formats.
         let vendor = usize::from(half(&setup, 16)).next_multiple_of(4);
         let screen = 32 + vendor + 8 * usize::from(setup[21]);
-        let mut client = Self { stream, root: full(&setup, screen), xtest: 0 };
+        stream.set_read_timeout(Some(super::PATIENCE)).unwrap();
+        let (root, id) = (full(&setup, screen), full(&setup, 4));
+        let mut client = Self { stream, root, xtest: 0, id, events: Vec::new() };
         let extension = client.ask(98, 0, b"\x05\0\0\0XTEST\0\0\0");
         assert_eq!(extension[8], 1, "the X server has no XTEST");
         client.xtest = extension[9];
@@ -103,6 +110,11 @@ impl Client {
         self.send(12, 0, &words(&[window, WIDTH_AND_HEIGHT, width, height]));
     }
 
+    pub(super) fn place(&mut self, window: u32, [x, y]: [u32; 2]) {
+        const X_AND_Y: u32 = 1 | 2;
+        self.send(12, 0, &words(&[window, X_AND_Y, x, y]));
+    }
+
     pub(super) fn focus(&mut self, window: u32) {
         const REVERT_TO_POINTER: u8 = 1;
         self.send(42, REVERT_TO_POINTER, &words(&[window, 0]));
@@ -110,35 +122,73 @@ impl Client {
 
     /// Presses or releases a key, as the hardware would.
     pub(super) fn key(&mut self, code: u8, down: bool) {
-        let event = u32::from_le_bytes([if down { 2 } else { 3 }, code, 0, 0]);
-        self.send(self.xtest, 2, &words(&[event, 0, self.root, 0, 0, 0, 0, 0]));
+        self.fake([if down { 2 } else { 3 }, code], [0; 2]);
     }
 
-    fn send(&mut self, opcode: u8, detail: u8, body: &[u8]) {
+    /// Presses and releases a key.
+    pub(super) fn tap(&mut self, code: u8) {
+        self.key(code, true);
+        self.key(code, false);
+    }
+
+    /// Presses or releases a button: 1 left, 3 right, 4 and 5 the wheel.
+    pub(super) fn button(&mut self, number: u8, down: bool) {
+        self.fake([if down { 4 } else { 5 }, number], [0; 2]);
+    }
+
+    /// Moves the pointer to a place on the screen.
+    pub(super) fn point(&mut self, at: [u16; 2]) {
+        self.fake([6, 0], at);
+    }
+
+    fn fake(&mut self, [kind, detail]: [u8; 2], [x, y]: [u16; 2]) {
+        let event = u32::from_le_bytes([kind, detail, 0, 0]);
+        let at = u32::from(x) | u32::from(y) << 16;
+        self.send(self.xtest, 2, &words(&[event, 0, self.root, 0, 0, at, 0, 0]));
+    }
+
+    pub(super) fn send(&mut self, opcode: u8, detail: u8, body: &[u8]) {
         let [low, high] = (1 + body.len() as u16 / 4).to_le_bytes();
         let request = [&[opcode, detail, low, high], body].concat();
         self.stream.write_all(&request).unwrap();
     }
 
     /// Sends a request and waits for its reply.
-    fn ask(&mut self, opcode: u8, detail: u8, body: &[u8]) -> Vec<u8> {
+    pub(super) fn ask(&mut self, opcode: u8, detail: u8, body: &[u8]) -> Vec<u8> {
         self.send(opcode, detail, body);
         loop {
-            let mut reply = vec![0; 32];
-            self.stream.read_exact(&mut reply).unwrap();
-            assert_ne!(reply[0], 0, "the X server reports error {}", reply[1]);
-            // Anything else is an event.
-            if reply[0] == 1 {
-                let mut rest = vec![0; 4 * full(&reply, 4) as usize];
-                self.stream.read_exact(&mut rest).unwrap();
-                reply.extend(rest);
+            let head = self.read();
+            if head[0] == 1 {
+                let mut reply = head.to_vec();
+                reply.resize(32 + 4 * full(&head, 4) as usize, 0);
+                self.stream.read_exact(&mut reply[32..]).unwrap();
                 return reply;
             }
+            self.events.push(head);
         }
+    }
+
+    /// Waits for an event of that kind.
+    pub(super) fn event(&mut self, kind: u8) -> [u8; 32] {
+        loop {
+            // The upper bit tells what another client sent.
+            if let Some(index) = self.events.iter().position(|event| event[0] & 0x7f == kind) {
+                return self.events.remove(index);
+            }
+            let event = self.read();
+            self.events.push(event);
+        }
+    }
+
+    fn read(&mut self) -> [u8; 32] {
+        let mut head = [0; 32];
+        self.stream.read_exact(&mut head).unwrap();
+        assert_ne!(head[0], 0, "the X server reports error {}", head[1]);
+        head
     }
 }
 
-fn words(words: &[u32]) -> Vec<u8> {
+pub(super) fn words(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
@@ -146,6 +196,6 @@ fn half(bytes: &[u8], at: usize) -> u16 {
     u16::from_le_bytes([bytes[at], bytes[at + 1]])
 }
 
-fn full(bytes: &[u8], at: usize) -> u32 {
+pub(super) fn full(bytes: &[u8], at: usize) -> u32 {
     u32::from(half(bytes, at)) | u32::from(half(bytes, at + 2)) << 16
 }

@@ -4,9 +4,15 @@
 #![cfg(feature = "viewer")]
 #![allow(clippy::unwrap_used, reason = "a test that panics fails")]
 
+mod cameras;
 mod display;
+mod exchange;
+mod loading;
+mod overlay;
+mod robust;
+mod wayland;
 
-use display::Display;
+use display::{Client, Display};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -54,8 +60,16 @@ intensity = [1, 1, 2]
 /// Longest wait for anything; validation makes the first picture slow.
 const PATIENCE: Duration = Duration::from_secs(30);
 
+/// Codes of keys on the keyboard of Xvfb.
 const ESCAPE: u8 = 9;
+const TWO: u8 = 11;
 const W: u8 = 25;
+const R: u8 = 27;
+const P: u8 = 33;
+const D: u8 = 40;
+const C: u8 = 54;
+const F5: u8 = 71;
+const F12: u8 = 96;
 
 fn amas(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_amas"));
@@ -65,6 +79,7 @@ fn amas(arguments: &[&str]) -> Command {
         .env_remove("DISPLAY")
         .env_remove("WAYLAND_DISPLAY")
         .env_remove("WAYLAND_SOCKET")
+        .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
@@ -79,10 +94,16 @@ fn scene(folder: &Path) -> PathBuf {
 
 /// The picture that `amas render` makes of the scene.
 fn rendered(scene: &Path, size: [u32; 2]) -> Vec<[u8; 3]> {
-    let picture = scene.with_extension("png");
+    rendered_from(scene, size, &[])
+}
+
+fn rendered_from(scene: &Path, size: [u32; 2], arguments: &[&str]) -> Vec<[u8; 3]> {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("picture.png");
     let size = format!("{}x{}", size[0], size[1]);
     let output = amas(&["render", "--device", "llvmpipe", "--size", &size, "-o"])
         .args([&picture, scene])
+        .args(arguments)
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
@@ -99,20 +120,55 @@ struct View(Option<Child>);
 
 impl View {
     fn open(display: &Display, scene: &Path, arguments: &[&str]) -> Self {
-        let child = amas(&["view", "--device", "llvmpipe", "--validate"])
-            .arg(scene)
-            .args(arguments)
-            .env("DISPLAY", &display.name)
-            .spawn()
-            .unwrap();
+        Self::open_plain(display, scene, &[&["--validate"], arguments].concat())
+    }
+
+    /// Without validation, which takes memory of its own.
+    fn open_plain(display: &Display, scene: &Path, arguments: &[&str]) -> Self {
+        let mut command = amas(&["view", "--device", "llvmpipe"]);
+        command.arg(scene).args(arguments).env("DISPLAY", &display.name);
+        // Where captures go.
+        Self::of(command.current_dir(scene.parent().unwrap()).spawn().unwrap())
+    }
+
+    fn of(child: Child) -> Self {
         Self(Some(child))
     }
 
+    /// `None` once it has ended.
+    fn resident_kilobytes(&self) -> Option<u64> {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.id())).ok()?;
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+        line.trim().strip_suffix(" kB")?.parse().ok()
+    }
+
+    fn id(&self) -> u32 {
+        self.0.as_ref().unwrap().id()
+    }
+
+    fn has_ended(&mut self) -> bool {
+        self.0.as_mut().unwrap().try_wait().unwrap().is_some()
+    }
+
+    fn signal(&self, name: &str) {
+        let status = Command::new("kill").args(["-s", name, &self.id().to_string()]).status();
+        assert!(status.unwrap().success());
+    }
+
     /// Waits for its end, which has to be a good one.
-    fn ends_well(mut self) {
-        let output = self.0.take().unwrap().wait_with_output().unwrap();
+    fn ends_well(self) {
+        let output = self.output();
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         assert_eq!(stderr(&output), "");
+    }
+}
+
+impl View {
+    /// Waits for its end.
+    #[track_caller]
+    fn output(mut self) -> Output {
+        wait_until("the window's end", || self.has_ended());
+        self.0.take().unwrap().wait_with_output().unwrap()
     }
 }
 
@@ -122,6 +178,42 @@ impl Drop for View {
             let _ = child.kill();
             let _ = child.wait();
         }
+    }
+}
+
+/// A window with the scene's first picture in it, and the keyboard.
+struct Open {
+    display: Display,
+    client: Client,
+    view: View,
+    window: u32,
+}
+
+impl Open {
+    /// At a size; waits for that picture.
+    fn new(scene: &Path, size: [u32; 2], first: &[[u8; 3]]) -> Self {
+        let display = Display::start();
+        let mut client = display.connect();
+        let view = View::open(&display, scene, &["--size", &format!("{}x{}", size[0], size[1])]);
+        wait_until("the first picture", || display.corner(size.map(|side| side as usize)) == first);
+        let window = client.window_of_size(size.map(|side| side as u16)).unwrap();
+        client.focus(window);
+        Self { display, client, view, window }
+    }
+
+    #[track_caller]
+    fn shows(&self, what: &str, size: [u32; 2], picture: &[[u8; 3]]) {
+        wait_until(what, || self.display.corner(size.map(|side| side as usize)) == picture);
+    }
+
+    fn close(mut self) -> Output {
+        self.client.tap(ESCAPE);
+        self.view.output()
+    }
+
+    fn ends_well(mut self) {
+        self.client.tap(ESCAPE);
+        self.view.ends_well();
     }
 }
 
@@ -152,8 +244,7 @@ fn the_window_shows_the_rendered_picture() {
     client.key(W, true);
     wait_until("a step forward", || display.corner([120, 80]) != larger);
     client.key(W, false);
-    client.key(ESCAPE, true);
-    client.key(ESCAPE, false);
+    client.tap(ESCAPE);
     view.ends_well();
 }
 
@@ -180,7 +271,23 @@ fn without_a_display_the_advice_is_to_render() {
 fn help_lists_the_keys() {
     let output = amas(&["view", "--help"]).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
-    for part in ["W A S D", "Q E", "drag", "wheel", "Esc", "Example"] {
+    let keys = [
+        "W A S D",
+        "Q E",
+        "drag",
+        "right drag",
+        "wheel",
+        "pinch",
+        "1 … 9",
+        " P ",
+        " R ",
+        " C ",
+        " V ",
+        "F5",
+        "F12",
+        "Esc",
+    ];
+    for part in keys.into_iter().chain(["dropped", "Example"]) {
         assert!(text.contains(part), "{part} is not in: {text}");
     }
 }

@@ -4,6 +4,7 @@ use super::Viewer;
 use crate::app::terminal::print;
 use crate::error::Result;
 use crate::scene::write;
+use arboard::Clipboard;
 use glam::DVec3;
 use std::time::Instant;
 use winit::event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent};
@@ -25,13 +26,27 @@ const NUMBERS: [KeyCode; 9] = [
     KeyCode::Digit9,
 ];
 
-/// Where the pointer is, and what it drags.
+/// Where the pointer is, what it drags, and what was copied.
 #[derive(Default)]
 pub(super) struct Pointer {
     /// Pixels of the window.
     at: Option<[f64; 2]>,
     drag: Option<Drag>,
     modifiers: ModifiersState,
+    /// Serves what was copied for as long as it lives.
+    clipboard: Option<Clipboard>,
+}
+
+impl Pointer {
+    /// Where there is no clipboard (Wayland without an X server), the terminal has the text.
+    fn copy(&mut self, text: String) {
+        if self.clipboard.is_none() {
+            self.clipboard = Clipboard::new().ok();
+        }
+        if let Some(clipboard) = &mut self.clipboard {
+            let _ = clipboard.set_text(text);
+        }
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -97,6 +112,11 @@ impl Viewer<'_> {
             KeyCode::KeyR => {
                 pilot.go_home(None);
             }
+            KeyCode::KeyC => {
+                let text = write::camera(&pilot.copy());
+                print(text.trim_end())?;
+                self.pointer.copy(text);
+            }
             KeyCode::KeyI => {
                 if let (Some(at), Some(picture)) = (self.pointer.at, &self.picture) {
                     let time = self.start.elapsed().as_secs_f64();
@@ -104,7 +124,12 @@ impl Viewer<'_> {
                 }
             }
             _ if self.gui.key(code) => {}
-            KeyCode::KeyC => print(write::camera(pilot.camera()).trim_end())?,
+            KeyCode::F5 => self.reload(),
+            KeyCode::F12 => {
+                if let Some(picture) = &self.picture {
+                    self.captures.take(picture)?;
+                }
+            }
             KeyCode::KeyV => {
                 if let Some(stage) = &mut self.stage {
                     stage.toggle_vsync();

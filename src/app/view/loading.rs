@@ -1,7 +1,8 @@
 //! Loading beside the window's thread: first the files, then the device.
 
 use super::Event;
-use super::picture::Picture;
+use super::picture::{Picture, Shape};
+use super::worker::Worker;
 use crate::app::args::SceneOptions;
 use crate::app::{camera_index, in_scene, load_watched, warn_of_missing_shadows};
 use crate::error::{Error, Result};
@@ -11,6 +12,7 @@ use crate::scene::{Camera, Scene};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use std::sync::Arc;
 use std::thread::JoinHandle;
+use std::time::SystemTime;
 use winit::event_loop::EventLoopProxy;
 
 /// Steps on the device, besides those of the files.
@@ -19,14 +21,27 @@ const DEVICE_STEPS: u64 = 2;
 /// What is being loaded.
 pub(super) struct Loading {
     pub(super) options: SceneOptions,
-    /// Camera to start from, by name.
-    camera: Option<String>,
+    pub(super) aim: Aim,
+    /// When reading began.
+    pub(super) since: SystemTime,
     progress: ProgressBar,
     /// Tells this job's events from those of jobs that were cancelled.
-    ticket: u64,
-    /// Uses the device, and so must end before the program does.
-    upload: Option<JoinHandle<()>>,
+    pub(super) ticket: u64,
+    /// Whether the device is in use for it.
+    uploads: bool,
+    worker: Worker,
     proxy: EventLoopProxy<Event>,
+}
+
+/// What a scene is loaded for.
+#[derive(Clone, PartialEq)]
+pub(super) enum Aim {
+    /// To be the first in the window, seen from the camera of that name.
+    First(Option<String>),
+    /// To take the place of the one that is there.
+    Other,
+    /// The one that is there, once more: the camera stays.
+    Again,
 }
 
 /// What a job has come to.
@@ -41,15 +56,24 @@ impl Loading {
     /// Begins to read the files.
     pub(super) fn start(
         options: SceneOptions,
-        camera: Option<String>,
+        aim: Aim,
         ticket: u64,
         proxy: &EventLoopProxy<Event>,
+        worker: Worker,
     ) -> Self {
         let progress = ProgressBar::with_draw_target(Some(DEVICE_STEPS), ProgressDrawTarget::hidden());
-        let job = Self { options, camera, progress, ticket, upload: None, proxy: proxy.clone() };
+        let job = Self {
+            options,
+            aim,
+            since: SystemTime::now(),
+            progress,
+            ticket,
+            uploads: false,
+            worker,
+            proxy: proxy.clone(),
+        };
         let (options, progress, proxy) = (job.options.clone(), job.progress.clone(), job.proxy.clone());
-        // Not waited for where it is cancelled: it touches no device, and its result is dropped.
-        std::thread::spawn(move || {
+        job.worker.run(move || {
             let scene = load_watched(&options, &progress);
             // Without an event loop nobody waits for it.
             let _ = proxy.send_event(Event::Loaded(ticket, Progress::Read(scene)));
@@ -57,9 +81,18 @@ impl Loading {
         job
     }
 
-    /// Whether an event is of this job.
-    pub(super) fn is(&self, ticket: u64) -> bool {
-        self.ticket == ticket
+    /// Has it end where it is. A thread that uses the device must be waited for before the device is gone; one that reads files
+    /// ends with the program, if not before, and what it reads is dropped.
+    #[must_use]
+    pub(super) fn cancel(self) -> Option<JoinHandle<()>> {
+        self.progress.abandon();
+        let thread = self.worker.retire();
+        self.uploads.then_some(thread)
+    }
+
+    /// It has come to its end; the worker is free.
+    pub(super) fn end(self) -> Worker {
+        self.worker
     }
 
     /// From 0 to 1.
@@ -70,29 +103,25 @@ impl Loading {
 
     /// The camera to start from, of a scene that was read.
     pub(super) fn camera(&self, scene: &Scene) -> Result<usize> {
-        in_scene(&self.options, camera_index(scene, self.camera.as_deref()))
+        let name = match &self.aim {
+            Aim::First(name) => name.as_deref(),
+            Aim::Other | Aim::Again => None,
+        };
+        in_scene(&self.options, camera_index(scene, name))
     }
 
-    /// Goes on to the device, for a picture of that size.
-    pub(super) fn upload(&mut self, device: &Arc<Device>, scene: Scene, camera: &Camera, size: [u32; 2]) {
+    /// Goes on to the device, for a picture of that shape.
+    pub(super) fn upload(&mut self, device: &Arc<Device>, scene: Scene, camera: &Camera, shape: Shape) {
         let (device, camera, ticket) = (device.clone(), camera.clone(), self.ticket);
         let (options, progress, proxy) = (self.options.clone(), self.progress.clone(), self.proxy.clone());
-        self.upload = Some(std::thread::spawn(move || {
-            let picture = build(&device, scene, &camera, size, &progress);
+        self.uploads = true;
+        self.worker.run(move || {
+            let picture = build(&device, scene, &camera, shape, &progress);
             let picture = in_scene(&options, picture).map(Box::new);
+            // Not later than the window's thread, which is told below.
+            drop(device);
             let _ = proxy.send_event(Event::Loaded(ticket, Progress::Ready(picture)));
-        }));
-    }
-}
-
-/// Cancelled, or done.
-impl Drop for Loading {
-    fn drop(&mut self) {
-        self.progress.abandon();
-        if let Some(upload) = self.upload.take() {
-            // A panic was reported on its thread.
-            let _ = upload.join();
-        }
+        });
     }
 }
 
@@ -100,17 +129,21 @@ fn build(
     device: &Arc<Device>,
     scene: Scene,
     camera: &Camera,
-    size: [u32; 2],
+    shape: Shape,
     progress: &ProgressBar,
 ) -> Result<Picture> {
     let going_on = || match progress.is_finished() {
         true => Err(Error::usage("loading was cancelled", "load the scene again")),
-        false => Ok(progress.inc(1)),
+        false => {
+            progress.inc(1);
+            Ok(())
+        }
     };
     warn_of_missing_shadows(&scene);
     let gpu = GpuScene::new(device, &scene)?;
     going_on()?;
-    let picture = Picture::new(device, gpu, scene, camera, size)?;
+    let picture = Picture::new(device, gpu, scene, camera, shape)?;
+    device.keep_pipelines();
     going_on()?;
     Ok(picture)
 }

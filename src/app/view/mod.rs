@@ -4,6 +4,7 @@
 //! one through the pixels' centres while the view moves, the scene's samples, one after the other, once it rests. Files
 //! are read, scenes uploaded and pipelines compiled on other threads, whose results arrive as [`Event`]s.
 
+mod capture;
 mod display;
 mod fly;
 mod input;
@@ -11,61 +12,83 @@ mod loading;
 mod overlay;
 mod picture;
 mod pilot;
+mod scenes;
 mod shaders;
 mod signals;
 mod stage;
+mod startup;
 mod waiting;
+mod watch;
+mod worker;
 
-use super::args::ViewOptions;
-use super::{in_scene, report};
+use super::args::{SceneOptions, ViewOptions};
+use super::report;
 use crate::error::Result;
 use crate::gpu::Replaced;
+use capture::Captures;
 use input::Pointer;
-use loading::{Loading, Progress};
+use loading::{Aim, Loading, Progress};
 use overlay::{Change, Gui};
-use picture::Picture;
+use picture::{Picture, Shape};
 use pilot::Pilot;
 use stage::Stage;
+use startup::Startup;
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use waiting::Waiting;
+use watch::Watch;
 use winit::application::ApplicationHandler;
 use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::WindowId;
+use worker::Worker;
 
 /// Time between two looks at how far loading is.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// What other threads tell the window's.
+#[allow(clippy::large_enum_variant, reason = "a scene moves through it once")]
 enum Event {
     /// A signal asks to close.
     Quit,
-    /// Sources of shaders changed: what they compile to, or why they do not.
-    Shaders(std::result::Result<Replaced, String>),
     /// A job of that ticket has come to something.
     Loaded(u64, Progress),
+    /// A file that the scene was read from has changed.
+    Changed,
+    /// Sources of shaders have changed: what they compile to, or why they do not.
+    Shaders(std::result::Result<Replaced, String>),
 }
 
 pub(super) fn run(options: &ViewOptions) -> Result<()> {
+    let startup = Startup::new(options.startup);
     // What is wrong with the scene file itself is said before a window opens.
     let settings = options.scene.origin().settings(&options.scene.overrides())?;
-    open(options, settings.size).map_err(display::advise)
+    open(options, settings.size, startup).map_err(display::advise)
 }
 
-fn open(options: &ViewOptions, size: [u32; 2]) -> Result<()> {
+fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
     let event_loop: EventLoop<Event> = display::connect()?;
     let proxy = event_loop.create_proxy();
     signals::listen(proxy.clone())?;
-    let loading = Loading::start(options.scene.clone(), options.camera.clone(), 0, &proxy);
+    let first = Aim::First(options.camera.clone());
+    let loading = Loading::start(options.scene.clone(), first, 0, &proxy, Worker::start());
     let mut viewer = Viewer {
         options,
         size,
+        watch: Watch::start(proxy.clone()),
         proxy,
+        startup,
+        current: options.scene.clone(),
         stage: None,
         picture: None,
         pilot: None,
         waiting: Waiting::default(),
         loading: Some(loading),
+        ticket: 0,
+        worker: None,
+        abandoned: Vec::new(),
+        captures: Captures::default(),
+        notice: None,
         pointer: Pointer::default(),
         gui: Gui::default(),
         hidden: false,
@@ -83,15 +106,28 @@ fn open(options: &ViewOptions, size: [u32; 2]) -> Result<()> {
 
 struct Viewer<'a> {
     options: &'a ViewOptions,
-    /// Of the window at first, pixels.
+    /// Of the window, as the scene asked for it, pixels.
     size: [u32; 2],
     proxy: EventLoopProxy<Event>,
+    startup: Startup,
+    /// The scene in the window, or that is to be the first there.
+    current: SceneOptions,
+    watch: Watch,
     stage: Option<Stage>,
     /// `None` until the first scene is loaded.
     picture: Option<Box<Picture>>,
     pilot: Option<Pilot>,
     waiting: Waiting,
     loading: Option<Loading>,
+    /// Of the last job.
+    ticket: u64,
+    /// Of the last job that has come to its end.
+    worker: Option<Worker>,
+    /// Threads that still use the device for scenes that nobody waits for.
+    abandoned: Vec<JoinHandle<()>>,
+    captures: Captures,
+    /// What went wrong last, for the title.
+    notice: Option<&'static str>,
     pointer: Pointer,
     gui: Gui,
     /// Nothing of the window is on screen.
@@ -121,12 +157,15 @@ impl Viewer<'_> {
         };
         let (Some(picture), Some(pilot)) = (&mut self.picture, &mut self.pilot) else {
             let fraction = self.loading.as_ref().map_or(0.0, Loading::fraction);
-            return stage.show(self.waiting.image(&stage.device, size, fraction)?).map(|_| ());
+            if stage.show(self.waiting.image(&stage.device, size, fraction)?)? {
+                self.startup.reached_once("window");
+            }
+            return Ok(());
         };
         let now = Instant::now();
         let moves = pilot.step(now) || picture.frame.scene().moves();
         picture.set_single(self.gui.shows_view());
-        picture.fit(size, pilot.camera())?;
+        picture.fit(Shape { size, encoding: stage.encoding() }, pilot.camera())?;
         if self.remaining.is_some() && picture.is_complete() {
             picture.restart();
         }
@@ -136,6 +175,9 @@ impl Viewer<'_> {
         picture.change(change, pilot.camera())?;
         if shown && let Some(remaining) = &mut self.remaining {
             *remaining = remaining.saturating_sub(1);
+        }
+        if shown {
+            self.startup.done("first picture")?;
         }
         let counters = picture.frame.counters();
         if !self.warned && counters.overflowed > 0 {
@@ -148,37 +190,8 @@ impl Viewer<'_> {
         Ok(())
     }
 
-    fn progress(&mut self, ticket: u64, progress: Progress) -> Result<()> {
-        let Some(loading) = self.loading.as_mut().filter(|loading| loading.is(ticket)) else {
-            return Ok(());
-        };
-        match progress {
-            Progress::Read(scene) => {
-                let scene = scene?;
-                let home = loading.camera(&scene)?;
-                let Some(stage) = &self.stage else {
-                    return Ok(());
-                };
-                let size = stage.window.inner_size();
-                let size = [size.width.max(1), size.height.max(1)];
-                let camera = scene.cameras[home].clone();
-                loading.upload(&stage.device, scene, &camera, size);
-            }
-            Progress::Ready(picture) => {
-                let picture = picture?;
-                let home = loading.camera(&picture.scene)?;
-                self.pilot = Some(Pilot::new(&picture.scene.cameras, home, picture.diagonal()));
-                self.gui.begin(&picture.scene);
-                self.picture = Some(picture);
-                self.loading = None;
-                self.redraw();
-            }
-        }
-        Ok(())
-    }
-
     /// Makes the frame anew with shaders that have changed; where that fails, the old one stays.
-    fn reload(&mut self, shaders: std::result::Result<Replaced, String>) {
+    fn reload_shaders(&mut self, shaders: std::result::Result<Replaced, String>) {
         let (Some(stage), Some(picture), Some(pilot)) = (&self.stage, &mut self.picture, &self.pilot) else {
             return;
         };
@@ -204,19 +217,23 @@ impl Viewer<'_> {
         }
     }
 
-    fn cancel_or_close(&mut self) {
-        // The first scene has no picture to go back to.
-        if self.picture.is_none() || self.loading.take().is_none() {
-            self.closing = true;
-        }
-    }
-
     /// After the loop: how it went.
     fn close(mut self) -> Result<()> {
-        // What uses the device goes first.
-        self.loading = None;
+        // What is under way on the device may take seconds to end.
+        if let Some(stage) = &self.stage {
+            stage.window.set_visible(false);
+        }
+        self.abandon();
+        self.abandoned.extend(self.worker.take().map(Worker::retire));
+        for thread in self.abandoned.drain(..) {
+            // A panic was reported on its thread.
+            let _ = thread.join();
+        }
         self.picture = None;
         let device = self.stage.take().map(|stage| stage.device.clone());
+        if let Some(device) = &device {
+            device.keep_pipelines();
+        }
         self.outcome?;
         device.map_or(Ok(()), |device| device.require_silence())
     }
@@ -226,6 +243,7 @@ impl ApplicationHandler<Event> for Viewer<'_> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.stage.is_none() {
             let opened = Stage::open(event_loop, self.options, self.size);
+            self.startup.reached("device");
             let result = opened.map(|stage| self.stage = Some(stage));
             self.settle(event_loop, result);
         }
@@ -240,6 +258,7 @@ impl ApplicationHandler<Event> for Viewer<'_> {
 
     fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
         if matches!(cause, StartCause::ResumeTimeReached { .. }) {
+            self.gui.woken();
             self.redraw();
         }
     }
@@ -250,13 +269,14 @@ impl ApplicationHandler<Event> for Viewer<'_> {
                 self.closing = true;
                 Ok(())
             }
+            Event::Loaded(ticket, progress) => self.progress(ticket, progress),
             Event::Shaders(shaders) => {
-                self.reload(shaders);
+                self.reload_shaders(shaders);
                 Ok(())
             }
-            Event::Loaded(ticket, progress) => {
-                let result = self.progress(ticket, progress);
-                in_scene(&self.options.scene, result)
+            Event::Changed => {
+                self.reload();
+                Ok(())
             }
         };
         self.settle(event_loop, result);
@@ -285,12 +305,17 @@ impl ApplicationHandler<Event> for Viewer<'_> {
                 self.redraw();
                 Ok(())
             }
+            WindowEvent::DroppedFile(path) => {
+                self.dropped(path);
+                Ok(())
+            }
             event => self.input(event),
         };
         self.settle(event_loop, result);
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        self.entitle();
         let look = self.loading.as_ref().map(|_| Instant::now() + LOOK);
         let next = look.into_iter().chain(self.gui.due()).min();
         event_loop.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));

@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, Image};
 use crate::gpu_scene::GpuScene;
+use crate::scene::settings::Encoding;
 use crate::scene::{Camera, Projection, Scene};
 use glam::DVec3;
 use indicatif::ProgressBar;
@@ -19,6 +20,14 @@ pub(super) struct Picture {
     single: bool,
     /// What the frame's samples show.
     shown: Option<View>,
+}
+
+/// What the window asks of pictures.
+#[derive(Clone, Copy)]
+pub(super) struct Shape {
+    /// Pixels across and down.
+    pub(super) size: [u32; 2],
+    pub(super) encoding: Encoding,
 }
 
 /// Whatever begins a new picture when it changes.
@@ -37,20 +46,21 @@ impl Picture {
         gpu: GpuScene,
         scene: Scene,
         camera: &Camera,
-        size: [u32; 2],
+        shape: Shape,
     ) -> Result<Self> {
         let gpu = Arc::new(gpu);
-        let frame = make_frame(device, &gpu, &scene, camera, size)?;
+        let frame = Frame::new(device, &gpu, settings(&scene, camera, shape))?;
         Ok(Self { scene, frame, device: device.clone(), single: false, shown: None })
     }
 
     /// Makes the frame fit the window, and the kind of camera.
-    pub(super) fn fit(&mut self, size: [u32; 2], camera: &Camera) -> Result<()> {
-        if self.frame.settings().perspective != perspective(camera) {
-            self.frame.retune(FrameSettings { size, ..FrameSettings::new(&self.scene.render, camera) })?;
+    pub(super) fn fit(&mut self, shape: Shape, camera: &Camera) -> Result<()> {
+        let now = self.frame.settings();
+        if (now.perspective, now.encoding) != (perspective(camera), shape.encoding) {
+            self.frame.retune(settings(&self.scene, camera, shape))?;
             self.shown = None;
-        } else if self.frame.settings().size != size {
-            self.frame.resize(size)?;
+        } else if now.size != shape.size {
+            self.frame.resize(shape.size)?;
             self.shown = None;
         }
         Ok(())
@@ -82,16 +92,6 @@ impl Picture {
         Ok(Some(timings))
     }
 
-    /// Asks for a single sample through the pixels' centres, or for the scene's.
-    pub(super) fn set_single(&mut self, single: bool) {
-        self.single = single;
-    }
-
-    /// Of the view at rest.
-    pub(super) fn samples(&self) -> u32 {
-        if self.single { 1 } else { self.scene.render.samples }
-    }
-
     /// Renders the same view again, from its first sample on.
     pub(super) fn restart(&mut self) {
         self.shown = None;
@@ -99,7 +99,7 @@ impl Picture {
 
     /// Makes anew what a change of the scene asks for.
     pub(super) fn change(&mut self, change: Change, camera: &Camera) -> Result<()> {
-        let size = self.frame.settings().size;
+        let settings = settings(&self.scene, camera, self.shape());
         match change {
             Change::Nothing => return Ok(()),
             Change::Picture => {}
@@ -108,13 +108,10 @@ impl Picture {
                     return self.change(Change::Scene, camera);
                 }
             }
-            Change::Frame => {
-                let settings = FrameSettings { size, ..FrameSettings::new(&self.scene.render, camera) };
-                self.frame.retune(settings)?;
-            }
+            Change::Frame => self.frame.retune(settings)?,
             Change::Scene => {
                 let gpu = Arc::new(GpuScene::new(&self.device, &self.scene)?);
-                self.frame = make_frame(&self.device, &gpu, &self.scene, camera, size)?;
+                self.frame = Frame::new(&self.device, &gpu, settings)?;
             }
         }
         self.shown = None;
@@ -123,13 +120,24 @@ impl Picture {
 
     /// Compiles every pass anew.
     pub(super) fn remake(&mut self, camera: &Camera) -> Result<()> {
-        let settings = FrameSettings {
-            size: self.frame.settings().size,
-            ..FrameSettings::new(&self.scene.render, camera)
-        };
-        self.frame.remake(settings)?;
+        self.frame.remake(settings(&self.scene, camera, self.shape()))?;
         self.shown = None;
         Ok(())
+    }
+
+    fn shape(&self) -> Shape {
+        let &FrameSettings { size, encoding, .. } = self.frame.settings();
+        Shape { size, encoding }
+    }
+
+    /// Asks for a single sample through the pixels' centres, or for the scene's.
+    pub(super) fn set_single(&mut self, single: bool) {
+        self.single = single;
+    }
+
+    /// Of the view at rest.
+    pub(super) fn samples(&self) -> u32 {
+        if self.single { 1 } else { self.scene.render.samples }
     }
 
     /// Whether every sample of a view that rests is there.
@@ -158,12 +166,6 @@ fn perspective(camera: &Camera) -> bool {
     matches!(camera.projection, Projection::Perspective { .. })
 }
 
-fn make_frame(
-    device: &Arc<Device>,
-    gpu: &Arc<GpuScene>,
-    scene: &Scene,
-    camera: &Camera,
-    size: [u32; 2],
-) -> Result<Frame> {
-    Frame::new(device, gpu, FrameSettings { size, ..FrameSettings::new(&scene.render, camera) })
+fn settings(scene: &Scene, camera: &Camera, Shape { size, encoding }: Shape) -> FrameSettings {
+    FrameSettings { size, encoding, ..FrameSettings::new(&scene.render, camera) }
 }

@@ -46,6 +46,11 @@ impl Pilot {
         &self.camera
     }
 
+    /// The camera as another one for the scene file.
+    pub(super) fn copy(&self) -> Camera {
+        Camera { name: format!("{} (copied)", self.camera.name), ..self.camera.clone() }
+    }
+
     /// A key of [`Fly`] goes down or up; `false` where it is none.
     pub(super) fn key(&mut self, code: KeyCode, pressed: bool) -> bool {
         let flies = self.fly.key(code, pressed);

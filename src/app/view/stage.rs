@@ -1,8 +1,11 @@
 //! The open window and its device: where pictures go.
 
 use crate::app::args::ViewOptions;
+use crate::app::terminal::complain;
 use crate::error::{Error, Result};
-use crate::gpu::{Device, Image, Options, Shown, Swapchain};
+use crate::gpu::{Device, Image, Options, Shown, Swapchain, WindowOptions};
+use crate::scene::settings::Encoding;
+use std::path::PathBuf;
 use std::sync::Arc;
 use winit::dpi::PhysicalSize;
 use winit::event_loop::ActiveEventLoop;
@@ -16,6 +19,7 @@ pub(super) struct Stage {
     /// Whether the images fit the window.
     fits: bool,
     vsync: bool,
+    title: String,
 }
 
 impl Stage {
@@ -32,11 +36,15 @@ impl Stage {
             remedy: "check the display".into(),
         })?;
         let window = Arc::new(window);
+        let wanted = WindowOptions { high: options.hdr, cache: cache_folder() };
         let asked = Options { device: options.device.device.clone(), validate: options.device.validate };
         let (device, mut swapchain) =
-            Device::open_for_window(&asked, &window, event_loop.owned_display_handle())?;
+            Device::open_for_window(&asked, &window, event_loop.owned_display_handle(), &wanted)?;
+        if options.hdr && swapchain.encoding() == Encoding::Srgb {
+            complain("warning: the display offers no high dynamic range; the window shows sRGB");
+        }
         swapchain.set_vsync(!options.no_vsync);
-        Ok(Self { swapchain, device, window, fits: false, vsync: !options.no_vsync })
+        Ok(Self { swapchain, device, window, fits: false, vsync: !options.no_vsync, title: String::new() })
     }
 
     /// Has the window's images made anew before the next picture.
@@ -58,6 +66,11 @@ impl Stage {
         self.vsync
     }
 
+    /// How pictures for the window are to be encoded.
+    pub(super) fn encoding(&self) -> Encoding {
+        self.swapchain.encoding()
+    }
+
     /// Makes the images fit the window, and says how large they are; `None` where it has no area.
     pub(super) fn fit(&mut self) -> Result<Option<[u32; 2]>> {
         if !self.fits {
@@ -68,19 +81,45 @@ impl Stage {
 
     /// Sends a picture to the window; whether it is on its way to the screen.
     pub(super) fn show(&mut self, picture: &Arc<Image>) -> Result<bool> {
-        if self.vsync {
-            // Wayland says when it wants the next one.
-            self.window.pre_present_notify();
-        }
-        let shown = self.swapchain.show(picture)?;
+        // Wayland says when it wants the next one; asked for it without a picture, it would never answer.
+        let (window, vsync) = (&self.window, self.vsync);
+        let shown = self.swapchain.show(picture, || {
+            if vsync {
+                window.pre_present_notify();
+            }
+        })?;
         if matches!(shown, Shown::Misfit | Shown::OutOfDate) {
             self.fits = false;
         }
         Ok(matches!(shown, Shown::Yes | Shown::Misfit))
     }
 
+    /// Sets the title, if it is another.
+    pub(super) fn entitle(&mut self, title: String) {
+        if self.title != title {
+            self.window.set_title(&title);
+            self.title = title;
+        }
+    }
+
+    /// Asks for a window of that size; what comes of it is up to the display.
+    pub(super) fn ask_size(&mut self, [width, height]: [u32; 2]) {
+        if self.window.request_inner_size(PhysicalSize::new(width, height)).is_some() {
+            // Granted at once, and so without an event: on Wayland a window has the size that it gives itself.
+            self.fits = false;
+            self.window.request_redraw();
+        }
+    }
+
     /// Pixels of the window's height, at least 1: what drags are measured by.
     pub(super) fn height(&self) -> f64 {
         f64::from(self.window.inner_size().height.max(1))
     }
+}
+
+/// The user's folder for what can be made again (XDG Base Directory Specification), if there is one.
+fn cache_folder() -> Option<PathBuf> {
+    let named = |name| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let folder = named("XDG_CACHE_HOME").or_else(|| named("HOME").map(|home| home.join(".cache")))?;
+    Some(folder.join("amas"))
 }

@@ -2,7 +2,8 @@
 
 use crate::error::Result;
 use crate::gpu::{Device, Image, ImageDescription, Use};
-use crate::targets::LDR_FORMAT;
+use crate::scene::settings::Encoding;
+use crate::targets::ldr_format;
 use std::sync::Arc;
 
 /// sRGB: behind the bar, its part that is done, and its rest.
@@ -45,7 +46,14 @@ fn draw(device: &Arc<Device>, size: [u32; 2], done: u32) -> Result<Arc<Image>> {
     let uses = &[Use::TransferWrite, Use::TransferRead, Use::ColorWrite];
     let image = Image::new(
         device,
-        &ImageDescription { name: "waiting", format: LDR_FORMAT, size, layers: None, mips: 1, uses },
+        &ImageDescription {
+            name: "waiting",
+            format: ldr_format(Encoding::Srgb),
+            size,
+            layers: None,
+            mips: 1,
+            uses,
+        },
     )?;
     let [width, height] = size;
     let [from, to] = span(width);

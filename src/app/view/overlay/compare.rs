@@ -1,14 +1,14 @@
 //! The picture against the truth: side by side, or their difference.
 
 use super::truth::Truth;
-use super::views::upload;
+use super::views::cover;
 use crate::app::false_color;
 use crate::app::view::picture::Picture;
-use crate::app::view::stage::Stage;
 use crate::error::Result;
 use crate::gpu::Image;
 use crate::image::HdrImage;
 use crate::passes::develop::Develop;
+use crate::passes::overlay::Overlay;
 use crate::scene::settings::Tonemap;
 use crate::scene::{Camera, Scene};
 use std::path::PathBuf;
@@ -42,7 +42,6 @@ pub(super) struct Compare {
     /// The truth as last shown, and its version.
     image: Option<(HdrImage, u64)>,
     develop: Option<(Tonemap, f32, Develop)>,
-    difference: Option<Image>,
     stale: bool,
 }
 
@@ -51,8 +50,8 @@ pub(super) enum Beside<'a> {
     Nothing,
     /// From this column on.
     Split(&'a Image, u32),
-    /// Instead of the picture.
-    Difference(&'a Image),
+    /// Over all of the picture.
+    Cover,
 }
 
 impl Compare {
@@ -109,14 +108,19 @@ impl Compare {
     }
 
     /// What is shown of the comparison.
-    pub(super) fn images(&mut self, stage: &Stage, picture: &Picture, camera: &Camera) -> Result<Beside<'_>> {
+    pub(super) fn draw(
+        &mut self,
+        picture: &Picture,
+        camera: &Camera,
+        pass: &mut Overlay,
+    ) -> Result<Beside<'_>> {
         let size = picture.frame.settings().size;
         if self.mode == Mode::Off {
             // Nobody waits for it.
             self.truth = None;
             return Ok(Beside::Nothing);
         }
-        self.begin(&picture.scene, picture.is_complete(), camera, size)?;
+        self.begin(&picture.scene, picture.is_complete(), camera, size);
         let Some(truth) = self.truth.as_ref().filter(|truth| truth.size() == size) else {
             return Ok(Beside::Nothing);
         };
@@ -127,11 +131,10 @@ impl Compare {
             return Ok(Beside::Nothing);
         };
         if self.mode == Mode::Difference {
-            if fresh || self.difference.is_none() {
-                let colors = difference(&picture.frame.hdr()?, image);
-                upload(&mut self.difference, stage, size, &colors)?;
+            if fresh {
+                cover(pass, size, &difference(&picture.frame.hdr()?, image))?;
             }
-            return Ok(self.difference.as_ref().map_or(Beside::Nothing, Beside::Difference));
+            return Ok(Beside::Cover);
         }
         let render = &picture.scene.render;
         let looks = (render.tonemap, render.exposure);
@@ -153,20 +156,19 @@ impl Compare {
     }
 
     /// Begins the truth of a view that rests, unless it is that already.
-    fn begin(&mut self, scene: &Scene, rests: bool, camera: &Camera, size: [u32; 2]) -> Result<()> {
+    fn begin(&mut self, scene: &Scene, rests: bool, camera: &Camera, size: [u32; 2]) {
         if let Some(file) = &self.file {
             if self.truth.is_none() {
-                self.truth = Some(Truth::load(file)?);
+                self.truth = Some(Truth::load(file));
                 self.image = None;
             }
-            return Ok(());
+            return;
         }
         let same = |truth: &Truth| truth.camera.as_ref() == Some(camera) && truth.size() == size;
         if !self.truth.as_ref().is_some_and(same) {
             self.truth = rests.then(|| Truth::compute(scene, camera, size));
             self.image = None;
         }
-        Ok(())
     }
 }
 

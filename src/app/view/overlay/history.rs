@@ -63,9 +63,9 @@ impl History {
             pos2(x, rect.bottom() - (ms / top).min(1.0) as f32 * rect.height())
         };
         let mut base = vec![0.0; self.0.len()];
-        for pass in 0..PASSES.len() {
+        for (pass, &color) in PASS_COLORS.iter().enumerate() {
             let above: Vec<f64> = base.iter().zip(&self.0).map(|(b, cost)| b + cost.passes[pass]).collect();
-            painter.add(band(&base, &above, at, PASS_COLORS[pass]));
+            painter.add(band(&base, &above, at, color));
             base = above;
         }
         let wall = self.0.iter().enumerate().map(|(i, cost)| at(i, cost.wall)).collect();

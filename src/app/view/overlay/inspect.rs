@@ -80,7 +80,7 @@ impl Inspector {
 
 fn put(scene: &mut Scene, picked: Picked, item: Item) {
     match (picked, item) {
-        (Picked::Material(index), Item::Material(value)) => scene.materials[index] = value,
+        (Picked::Material(index), Item::Material(value)) => scene.materials[index] = *value,
         (Picked::Point(index), Item::Point(value)) => scene.point_lights[index] = value,
         (Picked::Area(index), Item::Area(value)) => scene.area_lights[index] = value,
         _ => {}

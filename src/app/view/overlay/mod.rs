@@ -24,6 +24,7 @@ use crate::error::Result;
 use crate::frame::Timings;
 use crate::gpu::Image;
 use crate::passes::overlay::{Ground, Overlay};
+use crate::scene::settings::Encoding;
 use crate::scene::{Camera, Scene};
 use compare::{Beside, Compare, Mode};
 use counts::Figures;
@@ -80,6 +81,8 @@ pub(super) struct Gui {
     watched: bool,
     /// Why shaders that changed are not used.
     trouble: Option<String>,
+    /// Why the scene that was loaded last is not shown.
+    refused: Option<String>,
     /// When egui wants to be drawn again though nothing happened.
     due: Option<Instant>,
 }
@@ -89,6 +92,8 @@ struct Tools {
     input: egui_winit::State,
     textures: Textures,
     pass: Overlay,
+    /// Of the pictures that it is drawn over.
+    encoding: Encoding,
 }
 
 impl Gui {
@@ -113,6 +118,7 @@ impl Gui {
         self.inspector.begin(scene);
         self.views.forget();
         self.compare.forget();
+        self.refused = None;
     }
 
     /// Whether there are sources of shaders to watch.
@@ -129,6 +135,11 @@ impl Gui {
             self.compare.outdate();
         }
         self.trouble = made.err();
+    }
+
+    /// Why a scene is not shown; `None` once one is.
+    pub(super) fn complain(&mut self, trouble: Option<String>) {
+        self.refused = trouble;
     }
 
     /// Picks what is under a pixel, and opens the panels.
@@ -172,6 +183,11 @@ impl Gui {
         response.consumed && !up
     }
 
+    /// It is being drawn again, or cannot be: a time that has passed must not be waited for.
+    pub(super) fn woken(&mut self) {
+        self.due = None;
+    }
+
     /// When the overlay has to be drawn again of itself.
     pub(super) fn due(&self) -> Option<Instant> {
         self.due.filter(|_| self.is_shown())
@@ -197,9 +213,14 @@ impl Gui {
         if self.panels && self.figures.is_none() {
             self.figures = Some(Figures::new(&stage.device, picture)?);
         }
-        let mut tools = match self.tools.take() {
+        let mut tools = match self.tools.take().filter(|tools| tools.encoding == stage.encoding()) {
             Some(tools) => tools,
-            None => Tools::new(stage)?,
+            None => {
+                // What was made for others has gone.
+                self.views.forget();
+                self.compare.outdate();
+                Tools::new(stage)?
+            }
         };
         let mut change = Change::Nothing;
         let size = picture.frame.settings().size;
@@ -212,7 +233,10 @@ impl Gui {
                 keys::show(context, &mut self.keys);
             }
             if let Some(trouble) = &self.trouble {
-                complain(context, trouble);
+                complain(context, "Shaders", trouble);
+            }
+            if let Some(refused) = self.refused.as_ref().filter(|_| self.panels) {
+                complain(context, "Scene", refused);
             }
             legend::show(context, &self.views, &mut self.compare, size);
         });
@@ -223,14 +247,21 @@ impl Gui {
             let look = Instant::now() + LOOK;
             self.due = Some(self.due.map_or(look, |due| due.min(look)));
         }
-        let beside = self.compare.images(stage, picture, camera)?;
-        let below = self.views.image(stage, picture)?.unwrap_or(picture.image());
-        let ground = match beside {
-            Beside::Nothing => Ground { picture: below, beside: None },
-            Beside::Split(truth, column) => Ground { picture: below, beside: Some((truth, column)) },
-            Beside::Difference(image) => Ground { picture: image, beside: None },
+        // There is one cover, and a difference takes it.
+        let differs = self.compare.mode == Mode::Difference;
+        let mut covered = !differs && self.views.draw(picture, &mut tools.pass)?;
+        if differs {
+            self.views.outdate();
+        }
+        let beside = match self.compare.draw(picture, camera, &mut tools.pass)? {
+            Beside::Nothing => None,
+            Beside::Split(truth, column) => Some((truth, column)),
+            Beside::Cover => {
+                covered = true;
+                None
+            }
         };
-        let image = tools.paint(&ground, output)?;
+        let image = tools.paint(&Ground { picture: picture.image(), beside }, covered, output)?;
         self.tools = Some(tools);
         self.settle(change);
         Ok((image, change))
@@ -317,7 +348,9 @@ impl Tools {
         let scale = Some(stage.window.scale_factor() as f32);
         let side = Some(stage.device.largest_image() as usize);
         let input = egui_winit::State::new(context, ViewportId::ROOT, &stage.window, scale, None, side);
-        Ok(Self { input, textures: Textures::default(), pass: Overlay::new(&stage.device)? })
+        let encoding = stage.encoding();
+        let pass = Overlay::new(&stage.device, encoding)?;
+        Ok(Self { input, textures: Textures::default(), pass, encoding })
     }
 
     fn run(&mut self, window: &Window, mut show: impl FnMut(&Context)) -> FullOutput {
@@ -328,11 +361,11 @@ impl Tools {
         output
     }
 
-    fn paint(&mut self, ground: &Ground<'_>, mut output: FullOutput) -> Result<Arc<Image>> {
+    fn paint(&mut self, ground: &Ground<'_>, covered: bool, mut output: FullOutput) -> Result<Arc<Image>> {
         self.textures.update(&mut output.textures_delta, &mut self.pass)?;
         let scale = output.pixels_per_point;
         let primitives = self.input.egui_ctx().tessellate(output.shapes, scale);
-        let drawing = paint::drawing(primitives, scale, ground.picture.size());
+        let drawing = paint::drawing(primitives, scale, ground.picture.size(), covered);
         self.pass.draw(ground, &drawing)
     }
 }
@@ -341,11 +374,11 @@ fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
     egui::CollapsingHeader::new(title).default_open(true).show(ui, contents);
 }
 
-/// Why shaders that changed are not used.
-fn complain(context: &Context, trouble: &str) {
-    let window = egui::Window::new("Shaders").collapsible(false).default_pos([8.0, 8.0]);
+/// A window on what went wrong.
+fn complain(context: &Context, title: &str, trouble: &str) {
+    let window = egui::Window::new(title).collapsible(false).default_pos([8.0, 8.0]);
     window.show(context, |ui| {
-        ScrollArea::both().max_height(200.0).show(ui, |ui| {
+        ScrollArea::both().max_height(120.0).show(ui, |ui| {
             ui.label(egui::RichText::new(trouble).monospace().color(Color32::LIGHT_RED));
         });
     });

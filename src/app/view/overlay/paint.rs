@@ -6,6 +6,9 @@ use egui::epaint::{ClippedPrimitive, ImageData, Primitive};
 use egui::{Rect, TextureId, TexturesDelta};
 use std::collections::HashMap;
 
+/// Number of the texture that covers the whole picture; those of egui count from 0.
+pub(super) const COVER: u64 = u64::MAX;
+
 /// Textures as the host has them: egui changes parts, the pass takes wholes.
 #[derive(Default)]
 pub(super) struct Textures(HashMap<TextureId, Texels>);
@@ -62,9 +65,14 @@ fn number(id: TextureId) -> u64 {
     }
 }
 
-/// Meshes in one buffer, clipped to a canvas of `size` pixels.
-pub(super) fn drawing(primitives: Vec<ClippedPrimitive>, scale: f32, size: [u32; 2]) -> Drawing {
-    let mut drawing = Drawing { scale, ..Drawing::default() };
+/// Meshes in one buffer, clipped to a canvas of `size` pixels; below them the cover, if there is one.
+pub(super) fn drawing(
+    primitives: Vec<ClippedPrimitive>,
+    scale: f32,
+    size: [u32; 2],
+    covered: bool,
+) -> Drawing {
+    let mut drawing = if covered { cover(scale, size) } else { Drawing { scale, ..Drawing::default() } };
     for ClippedPrimitive { clip_rect, primitive } in primitives {
         let Primitive::Mesh(mesh) = primitive else { continue };
         let Some((corner, size)) = pixels(clip_rect, scale, size) else { continue };
@@ -82,6 +90,18 @@ pub(super) fn drawing(primitives: Vec<ClippedPrimitive>, scale: f32, size: [u32;
         drawing.batches.push(Batch { texture: number(mesh.texture_id), corner, size, triangles });
     }
     drawing
+}
+
+/// The whole canvas under the texture of its size.
+fn cover(scale: f32, size: [u32; 2]) -> Drawing {
+    let [width, height] = size.map(|side| side as f32 / scale);
+    let corner = |[u, v]: [f32; 2]| Corner { position: [u * width, v * height], uv: [u, v], color: [255; 4] };
+    Drawing {
+        scale,
+        corners: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(corner).to_vec(),
+        triangles: vec![[0, 1, 2], [1, 2, 3]],
+        batches: vec![Batch { texture: COVER, corner: [0; 2], size, triangles: 0..2 }],
+    }
 }
 
 /// A rectangle of points in whole pixels within the canvas: corner and size; `None` where nothing is left.

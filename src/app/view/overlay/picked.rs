@@ -19,7 +19,7 @@ pub(in crate::app::view) enum Picked {
 /// What it is.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::app::view) enum Item {
-    Material(Material),
+    Material(Box<Material>),
     Point(PointLight),
     Area(AreaLight),
 }
@@ -28,7 +28,9 @@ impl Picked {
     /// `None` where the scene, which may have been loaded anew, has no such part.
     pub(in crate::app::view) fn of(self, scene: &Scene) -> Option<Item> {
         match self {
-            Self::Material(index) => scene.materials.get(index).cloned().map(Item::Material),
+            Self::Material(index) => {
+                scene.materials.get(index).cloned().map(|it| Item::Material(Box::new(it)))
+            }
             Self::Point(index) => scene.point_lights.get(index).copied().map(Item::Point),
             Self::Area(index) => scene.area_lights.get(index).cloned().map(Item::Area),
         }

@@ -34,10 +34,13 @@ struct State {
 }
 
 impl Truth {
-    /// A picture of a file.
-    pub(super) fn load(path: &Path) -> Result<Self> {
-        let image = HdrImage::load(path)?;
-        Ok(Self::of(State { image, rows: 1, of: 1, version: 1, failed: None }, None))
+    /// A picture of a file, or why there is none.
+    pub(super) fn load(path: &Path) -> Self {
+        let (image, failed) = match HdrImage::load(path) {
+            Ok(image) => (image, None),
+            Err(error) => (HdrImage::new(0, 0), Some(error.to_string())),
+        };
+        Self::of(State { image, rows: 1, of: 1, version: 1, failed }, None)
     }
 
     /// Begins to compute a picture: the scene's samples, shadows where it asks for them.

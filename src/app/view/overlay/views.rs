@@ -1,12 +1,11 @@
 //! Debug views: output variables of the frame in the colours that `amas render --aov NAME=FILE.png` gives them.
 
+use super::paint::COVER;
 use crate::app::false_color;
 use crate::app::view::picture::Picture;
-use crate::app::view::stage::Stage;
 use crate::error::Result;
-use crate::gpu::{Image, ImageDescription, Use};
 use crate::passes::aov::{Aov, Quantity};
-use crate::targets::LDR_FORMAT;
+use crate::passes::overlay::Overlay;
 use winit::keyboard::KeyCode;
 
 /// A debug view.
@@ -25,13 +24,13 @@ pub(super) const VIEWS: [DebugView; 10] = [
     view(KeyCode::F2, "albedo", Quantity::Albedo),
     view(KeyCode::F3, "normal", Quantity::Normal),
     view(KeyCode::F4, "roughness (alpha)", Quantity::Roughness),
-    view(KeyCode::F5, "depth, metres", Quantity::Depth),
-    view(KeyCode::F6, "depth slice", Quantity::Slice),
-    view(KeyCode::F7, "cluster", Quantity::Cluster),
-    view(KeyCode::F8, "lights evaluated", Quantity::LightCount),
-    view(KeyCode::F9, "lights evaluated per useful one", Quantity::PairRatio),
-    view(KeyCode::F10, "estimated relative error of many lights", Quantity::LightError),
-    view(KeyCode::F11, "bound of the closed form's error, area lights", Quantity::LtcBound),
+    view(KeyCode::F6, "depth, metres", Quantity::Depth),
+    view(KeyCode::F7, "depth slice", Quantity::Slice),
+    view(KeyCode::F8, "cluster", Quantity::Cluster),
+    view(KeyCode::F9, "lights evaluated", Quantity::LightCount),
+    view(KeyCode::F10, "lights evaluated per useful one", Quantity::PairRatio),
+    view(KeyCode::F11, "estimated relative error of many lights", Quantity::LightError),
+    view(KeyCode::KeyB, "bound of the closed form's error, area lights", Quantity::LtcBound),
 ];
 
 /// Which view is shown, and its picture.
@@ -39,7 +38,6 @@ pub(super) const VIEWS: [DebugView; 10] = [
 pub(super) struct Views {
     shown: Option<usize>,
     pass: Option<(Fit, Aov)>,
-    image: Option<Image>,
     range: Option<[f32; 2]>,
     /// The picture is not of the frame's last sample, or of another view.
     stale: bool,
@@ -88,44 +86,34 @@ impl Views {
         self.range
     }
 
-    /// The view's picture of the frame; `None` where the picture itself is shown.
-    pub(super) fn image(&mut self, stage: &Stage, picture: &Picture) -> Result<Option<&Image>> {
+    /// Makes the view's colours the overlay's cover; whether there is a view.
+    pub(super) fn draw(&mut self, picture: &Picture, pass: &mut Overlay) -> Result<bool> {
         let Some(view) = self.shown else {
-            return Ok(None);
+            return Ok(false);
         };
         let settings = picture.frame.settings();
         let fit = Fit { view, size: settings.size, perspective: settings.perspective };
-        if self.stale || self.image.as_ref().is_none_or(|image| image.size() != fit.size) {
-            let quantity = VIEWS[view].quantity;
-            let aov = match self.pass.take().filter(|(made, _)| *made == fit) {
-                Some((_, aov)) => aov,
-                None => picture.frame.aov_pass(quantity)?,
-            };
-            picture.frame.draw_aov(&aov)?;
-            let (colors, range) = false_color::of(quantity, &aov.fetch()?);
-            self.range = range;
-            self.pass = Some((fit, aov));
-            upload(&mut self.image, stage, fit.size, &colors)?;
-            self.stale = false;
+        let made = self.pass.take().filter(|(made, _)| *made == fit);
+        if !self.stale && made.is_some() {
+            self.pass = made;
+            return Ok(true);
         }
-        Ok(self.image.as_ref())
+        let quantity = VIEWS[view].quantity;
+        let aov = match made {
+            Some((_, aov)) => aov,
+            None => picture.frame.aov_pass(quantity)?,
+        };
+        picture.frame.draw_aov(&aov)?;
+        let (colors, range) = false_color::of(quantity, &aov.fetch()?);
+        cover(pass, fit.size, &colors)?;
+        (self.range, self.stale) = (range, false);
+        self.pass = Some((fit, aov));
+        Ok(true)
     }
 }
 
-/// Puts colours into an image of that size, in use [`Use::TransferRead`].
-pub(super) fn upload(
-    image: &mut Option<Image>,
-    stage: &Stage,
-    size: [u32; 2],
-    colors: &[[u8; 3]],
-) -> Result<()> {
-    if image.as_ref().is_none_or(|image| image.size() != size) {
-        // An attachment only because every image has a view, and that needs such a use.
-        let uses = &[Use::TransferWrite, Use::TransferRead, Use::ColorWrite];
-        let description =
-            ImageDescription { name: "false colour", format: LDR_FORMAT, size, layers: None, mips: 1, uses };
-        *image = Some(Image::new(&stage.device, &description)?);
-    }
+/// Makes colours of the whole window the overlay's cover.
+pub(super) fn cover(pass: &mut Overlay, size: [u32; 2], colors: &[[u8; 3]]) -> Result<()> {
     let texels: Vec<[u8; 4]> = colors.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
-    image.as_ref().map_or(Ok(()), |image| image.upload(&[&texels], Use::TransferRead))
+    pass.set_texture(COVER, size, &texels)
 }

@@ -1,0 +1,93 @@
+//! What happens to windows: sizes, places, signals, a long run.
+
+use super::display::Display;
+use super::{SCENE, View, rendered, scene, wait_until};
+use std::time::Duration;
+
+/// Numbers that look random and are the same on every run (Knuth's MMIX generator, upper bits).
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, end: u32) -> u32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) % u64::from(end)) as u32
+    }
+}
+
+/// 200 sizes, faster than pictures follow, and then the picture of the last.
+#[test]
+fn any_size_is_survived() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let last = rendered(&scene, [120, 80]);
+    let display = Display::start();
+    let mut client = display.connect();
+    let view = View::open(&display, &scene, &[]);
+    let mut window = None;
+    wait_until("the window", || {
+        window = client.window_of_size([96, 64]);
+        window.is_some()
+    });
+    let window = window.unwrap();
+    let mut numbers = Numbers(5);
+    for step in 0..200 {
+        let size = match step % 20 {
+            0 => [1, 1],
+            1 => [400, 1],
+            2 => [1, 300],
+            _ => [1 + numbers.below(300), 1 + numbers.below(200)],
+        };
+        client.resize(window, size);
+        client.place(window, [numbers.below(100), numbers.below(100)]);
+        // Some sizes in a row without a picture, some with one in between.
+        std::thread::sleep(Duration::from_millis(u64::from(numbers.below(40))));
+    }
+    client.resize(window, [120, 80]);
+    client.place(window, [0, 0]);
+    wait_until("the picture of the last size", || display.corner([120, 80]) == last);
+    view.signal("TERM");
+    view.ends_well();
+}
+
+#[test]
+fn signals_close_the_window() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let picture = rendered(&scene, [96, 64]);
+    for (name, arguments) in [("INT", &[][..]), ("TERM", &["--no-vsync", "--hdr"])] {
+        let display = Display::start();
+        let view = View::open(&display, &scene, arguments);
+        wait_until("the picture", || display.corner([96, 64]) == picture);
+        view.signal(name);
+        let output = view.output();
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(said.contains("no high dynamic range"), arguments.contains(&"--hdr"), "{said}");
+    }
+}
+
+/// Memory of a window whose pictures never rest: that of the last quarter of its time is that of the second.
+#[test]
+fn a_long_run_takes_no_more_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = scene(folder.path());
+    std::fs::write(&path, SCENE.replace("[render]", "[render]\nsamples = 7")).unwrap();
+    let display = Display::start();
+    let mut view = View::open_plain(&display, &path, &["--frames", "1200", "--no-vsync"]);
+    let mut resident = Vec::new();
+    while !view.has_ended() {
+        resident.extend(view.resident_kilobytes());
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    view.ends_well();
+    let quarter = resident.len() / 4;
+    assert!(quarter > 5, "{} readings", resident.len());
+    let median = |readings: &[u64]| {
+        let mut sorted = readings.to_vec();
+        sorted.sort_unstable();
+        sorted[sorted.len() / 2] as f64
+    };
+    let ratio = median(&resident[3 * quarter..]) / median(&resident[quarter..2 * quarter]);
+    println!("{} readings, ratio {ratio:.4}", resident.len());
+    assert!((0.98..1.02).contains(&ratio), "{ratio}");
+}

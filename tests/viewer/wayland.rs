@@ -1,0 +1,120 @@
+//! The window on a Wayland compositor without a screen.
+
+use super::{SCENE, View, amas, scene, stderr, wait_until};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+/// A running weston.
+struct Compositor {
+    server: Child,
+    folder: tempfile::TempDir,
+}
+
+impl Compositor {
+    /// With a shell that leaves windows their size, or one that gives them the whole output.
+    fn start(shell: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let server = Command::new("weston")
+            .args(["--backend=headless-backend.so", "--width=200", "--height=140", "--idle-time=0"])
+            .args(["--no-config", "--socket=amas-test", &format!("--shell={shell}")])
+            .env("XDG_RUNTIME_DIR", folder.path())
+            .env_remove("WAYLAND_DISPLAY")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap_or_else(|error| panic!("weston: {error}; run ./setup, which installs it"));
+        let compositor = Self { server, folder };
+        wait_until("weston", || compositor.folder.path().join("amas-test").exists());
+        compositor
+    }
+
+    fn open(&self, scene: &Path, arguments: &[&str]) -> View {
+        View::of(self.command(scene).args(arguments).spawn().unwrap())
+    }
+
+    /// Says on stderr what it tells the compositor.
+    fn open_telling(&self, scene: &Path) -> View {
+        View::of(self.command(scene).env("WAYLAND_DEBUG", "client").spawn().unwrap())
+    }
+
+    fn command(&self, scene: &Path) -> Command {
+        let mut command = amas(&["view", "--device", "llvmpipe", "--validate"]);
+        command.arg(scene).env("XDG_RUNTIME_DIR", self.folder.path()).env("WAYLAND_DISPLAY", "amas-test");
+        command
+    }
+}
+
+impl Drop for Compositor {
+    fn drop(&mut self) {
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+#[test]
+fn a_wayland_window_shows_pictures_and_closes() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let compositor = Compositor::start("desktop-shell.so");
+    for vsync in [&["--frames", "20"][..], &["--frames", "20", "--no-vsync"]] {
+        compositor.open(&scene, vsync).ends_well();
+    }
+}
+
+/// A scene that asks for another size gets it; a signal ends the window that rests.
+#[test]
+fn a_wayland_window_follows_its_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let compositor = Compositor::start("desktop-shell.so");
+    let view = compositor.open_telling(&scene);
+    std::thread::sleep(Duration::from_secs(2));
+    std::fs::write(&scene, SCENE.replace("[96, 64]", "[120, 80]")).unwrap();
+    std::thread::sleep(Duration::from_secs(2));
+    assert_eq!(sizes(view), ["96, 64", "120, 80"]);
+}
+
+/// This shell gives windows the whole output. Without a seat it keeps them behind its background and asks for no picture: a
+/// hidden window ends, too.
+#[test]
+fn a_wayland_window_takes_the_size_that_it_is_given() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let compositor = Compositor::start("kiosk-shell.so");
+    let view = compositor.open_telling(&scene);
+    std::thread::sleep(Duration::from_secs(2));
+    assert_eq!(sizes(view).last().map(String::as_str), Some("200, 140"));
+}
+
+/// Ends the window, and says which sizes its images had, in order.
+fn sizes(view: View) -> Vec<String> {
+    view.signal("TERM");
+    let output = view.output();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    // Of libwayland: -> wl_shm_pool@40.create_buffer(new id wl_buffer@42, 0, 200, 140, 832, 1)
+    let buffers =
+        said.lines().filter_map(|line| line.split_once("create_buffer(new id ")?.1.split_once(", 0, "));
+    let mut sizes: Vec<String> =
+        buffers.filter_map(|(_, rest)| Some(rest.rsplitn(3, ", ").last()?.to_owned())).collect();
+    // Title bars.
+    sizes.retain(|size| !size.ends_with(", 24"));
+    sizes.dedup();
+    sizes
+}
+
+/// A compositor that goes away takes the window along, without a crash.
+#[test]
+fn a_compositor_that_dies_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let compositor = Compositor::start("desktop-shell.so");
+    let view = compositor.open(&scene, &[]);
+    std::thread::sleep(Duration::from_secs(2));
+    drop(compositor);
+    let output = view.output();
+    let said = stderr(&output);
+    assert!(output.status.code().is_some_and(|code| code != 0 && code != 101), "{:?}: {said}", output.status);
+    assert!(said.contains("remedy"), "{said}");
+}
