@@ -68,7 +68,7 @@ impl Frame {
         let capacity = Capacity::start(tiles, work.lists, mask);
         let frame = Self {
             prepass: Prepass::new(&inputs, &targets, work.resolve)?,
-            cluster: clustered(work).then(|| ClusterPass::new(&inputs, work, false)).transpose()?,
+            cluster: clustered(work).then(|| ClusterPass::new(&inputs, work)).transpose()?,
             resolve: work
                 .resolve
                 .then(|| Resolve::new(&inputs, &targets, work.folded, capacity.clusters))
@@ -146,11 +146,9 @@ impl Frame {
     fn grow(&mut self, capacity: Capacity) -> Result<()> {
         let inputs =
             PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
-        if capacity.folds && !self.lists.capacity.folds {
-            self.cluster = Some(ClusterPass::new(&inputs, self.work, true)?);
-        }
-        if capacity.nodes && !self.work.folded {
+        if capacity.folds && !self.work.folded {
             self.work.folded = true;
+            self.cluster = Some(ClusterPass::new(&inputs, self.work)?);
             if self.work.resolve {
                 self.resolve = Some(Resolve::new(&inputs, &self.targets, true, capacity.clusters)?);
             }
@@ -252,6 +250,7 @@ impl Frame {
         [constants.parent_texels, constants.sibling_texels, constants.list_texels] =
             self.lists.capacity.first_texels().map(|texel| texel as u32);
         constants.list_capacity = self.lists.capacity.texels;
+        constants.fold_nodes = if self.work.folded { shared::FOLD_NODES } else { 0 };
         constants.area_lights = self.scene.area.count;
         constants.area_texels = self.lists.capacity.mask;
         if self.work.cut {

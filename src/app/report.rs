@@ -154,7 +154,7 @@ impl<'a> Report<'a> {
                 cpu_ms: figure(timings, |t| Some(t.cpu_ms)),
             },
             error_estimate: ErrorEstimate {
-                light_relative: frame.light_error()? + f64::from(clusters.max_folded_error),
+                light_relative: frame.light_error()?,
                 indirect_relative: 0.0,
             },
             clusters,

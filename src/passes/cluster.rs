@@ -9,7 +9,7 @@
 //! 7. `count`: which lights of its parent's list reach each cluster, kept as masks.
 //! 8. `scan_lists`: where each list lies.
 //! 9. `write`: the lists, in Hilbert order, four indices a texel, from the masks.
-//! 10. `fold`: lists longer than the cap, and those of crowded parents.
+//! 10. `fold`: lists longer than the cap.
 //! 11. `cut_count`: how many nodes of their tree stand for lights without a range.
 //! 12. `scan_cuts`: where each cut lies.
 //! 13. `cut_write`: the cuts.
@@ -50,10 +50,8 @@ pub struct Capacity {
     pub mask: u32,
     /// Texels of masks and lists.
     pub texels: u32,
-    /// Step 10 has lists to make.
+    /// Some lists end in nodes of folded lights.
     pub folds: bool,
-    /// Some of them end in nodes of folded lights.
-    pub nodes: bool,
 }
 
 impl Capacity {
@@ -62,7 +60,7 @@ impl Capacity {
     pub fn start(tiles: [u32; 2], lists: bool, mask: u32) -> Self {
         let clusters = (area(tiles).max(32) * 2).next_multiple_of(LINEAR_GROUP);
         let parents = if lists { 4 * area(blocks(tiles)) } else { 0 };
-        let room = Self { clusters, parents, mask, texels: 0, folds: false, nodes: false };
+        let room = Self { clusters, parents, mask, texels: 0, folds: false };
         room.with_texels(room.first_texels()[2] + u64::from(area(tiles)) * 32)
     }
 
@@ -89,9 +87,8 @@ impl Capacity {
     pub fn grown(self, counters: &Counters) -> Option<Self> {
         let clusters = counters.clusters.max(self.clusters).next_multiple_of(LINEAR_GROUP);
         let parents = if self.parents > 0 { counters.parents.max(self.parents) } else { 0 };
-        let folds = self.folds || counters.folding > 0;
-        let nodes = self.nodes || counters.overflowed > 0;
-        let larger = Self { clusters, parents, folds, nodes, ..self };
+        let folds = self.folds || counters.overflowed > 0;
+        let larger = Self { clusters, parents, folds, ..self };
         // Where clusters were missing, so were their lists: the texels needed are known only next time.
         let lists = u64::from(counters.list_texels.max(self.texels)) - self.first_texels()[2];
         let larger = larger.with_texels(larger.first_texels()[2] + lists);
@@ -215,8 +212,8 @@ impl ClusterPass {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, work: Work, folds: bool) -> Result<Self> {
-        let Work { lists, masks, resolve, cut, .. } = work;
+    pub fn new(inputs: &PassInputs<'_>, work: Work) -> Result<Self> {
+        let Work { lists, masks, resolve, cut, folded, .. } = work;
         let step = |shader| {
             ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, &Specialization::default())
         };
@@ -226,7 +223,7 @@ impl ClusterPass {
                 count: step(shaders::CLUSTER_COUNT_COMP)?,
                 scan_lists: step(shaders::CLUSTER_SCAN_LISTS_COMP)?,
                 write: step(shaders::CLUSTER_WRITE_COMP)?,
-                fold: folds.then(|| step(shaders::CLUSTER_FOLD_COMP)).transpose()?,
+                fold: folded.then(|| step(shaders::CLUSTER_FOLD_COMP)).transpose()?,
             })
         };
         let of_cuts = || -> Result<Cuts> {
@@ -237,7 +234,7 @@ impl ClusterPass {
             })
         };
         let notes = Specialization::default()
-            .with(shared::SPEC_NOTE_PIXELS, u32::from(resolve || cut))
+            .with(shared::SPEC_NOTE_PIXELS, u32::from(resolve || cut || folded))
             .with(shared::SPEC_NOTE_VARIANTS, u32::from(resolve));
         Ok(Self {
             slices: step(shaders::CLUSTER_SLICES_COMP)?,
