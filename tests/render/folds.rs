@@ -1,6 +1,6 @@
 //! Lists longer than the cap: the strongest lights stay, the others are folded, and the report says what that did.
 
-use crate::support::{FIVE_MATERIALS, Rig, ranged_lights, relative_errors, scene};
+use crate::support::{FIVE_MATERIALS, Rig, ranged_lights, scene};
 use amas::HdrImage;
 use amas::gpu::Use;
 use amas::scene::PointLight;
@@ -81,8 +81,8 @@ struct Cost {
     energy: f64,
     /// Mean error, of the picture's mean.
     mean: f64,
-    /// Mean relative error.
-    relative: f64,
+    /// Mean over the pixels with a surface of the error of their cluster, of its mean.
+    clusters: f64,
     /// What the frame takes for that.
     estimate: f64,
     /// The largest of a cluster.
@@ -94,27 +94,56 @@ impl Cost {
         let picture = rig.render();
         let counters = rig.frame.counters();
         assert!(counters.folded > 0, "{name}: the cap cuts something");
-        let pairs = picture.pixels.iter().flatten().zip(truth.pixels.iter().flatten());
+        let pairs = || picture.pixels.iter().flatten().zip(truth.pixels.iter().flatten());
         let cost = Self {
             energy: energy(&picture) / energy(truth) - 1.0,
-            mean: pairs.map(|(a, b)| f64::from((a - b).abs())).sum::<f64>() / energy(truth),
-            relative: { let e = relative_errors(&picture, truth); e.iter().sum::<f64>() / e.len() as f64 },
+            mean: pairs().map(|(a, b)| f64::from((a - b).abs())).sum::<f64>() / energy(truth),
+            clusters: cluster_error(rig, &picture, truth),
             estimate: rig.frame.light_error().unwrap(),
             largest: f64::from(f32::from_bits(counters.fold_error)),
         };
         println!(
-            "{name}: {} of {} folded, energy {:+.2e}, mean error {:.2e}, relative {:.2e}, estimate {:.2e} ({:.2}), largest {:.2e}",
+            "{name}: {} of {} folded, energy {:+.2e}, mean error {:.2e}, clusters {:.2e}, estimate {:.2e} ({:.2}), largest {:.2e}",
             counters.folded,
             counters.folded + counters.entries,
             cost.energy,
             cost.mean,
-            cost.relative,
+            cost.clusters,
             cost.estimate,
-            cost.estimate / cost.relative,
+            cost.estimate / cost.clusters,
             cost.largest
         );
         cost
     }
+
+    /// Energy, and where something is moved the estimate, as a multiple of the error.
+    fn check(self, [least, most]: [f64; 2]) -> Self {
+        assert!(self.energy.abs() <= 0.01, "energy {:+.4}", self.energy);
+        let allowed = least * self.clusters..=most * self.clusters;
+        assert!(
+            self.clusters < 1e-6 || allowed.contains(&self.estimate),
+            "estimate {}, {allowed:?}",
+            self.estimate
+        );
+        assert!(self.largest >= self.estimate, "the largest is not below the mean");
+        self
+    }
+}
+
+fn cluster_error(rig: &Rig, picture: &HdrImage, truth: &HdrImage) -> f64 {
+    let (ids, clusters) = occupied(rig);
+    let mut sums = vec![[0.0; 3]; clusters.len()];
+    let covered =
+        ids.iter().zip(picture.pixels.iter().zip(&truth.pixels)).filter(|(id, _)| **id != NO_CLUSTER);
+    for (&id, (a, b)) in covered {
+        let [error, light, pixels] = &mut sums[id as usize];
+        *error += a.iter().zip(b).map(|(a, b)| f64::from((a - b).abs())).sum::<f64>();
+        *light += b.iter().map(|&b| f64::from(b)).sum::<f64>();
+        *pixels += 1.0;
+    }
+    let lit = sums.iter().filter(|[_, light, _]| *light > 0.0);
+    let errors: f64 = lit.map(|[error, light, pixels]| error / light * pixels).sum();
+    errors / sums.iter().map(|[_, _, pixels]| pixels).sum::<f64>()
 }
 
 const CAPS: [u32; 4] = [8, 16, 64, 128];
@@ -131,13 +160,13 @@ fn caps_keep_the_energy_and_say_what_they_cost() {
         let truth = truth(&format!("{FIVE_MATERIALS}{lights}"));
         for cap in CAPS {
             let mut rig = capped(&lights, cap);
-            let cost = Cost::of(&format!("{name}, {cap}"), &mut rig, &truth);
+            Cost::of(&format!("{name}, {cap}"), &mut rig, &truth).check([0.5, 2.0]);
             check_counters(&rig, cap);
         }
     }
 }
 
-/// A plane seen from above, clusters of 4 × 4 pixels a metre wide, and lights near it.
+/// A matte plane seen from above, in clusters of 4 × 4 pixels a metre wide, and lights.
 fn plane(rotate: [f64; 3], lights: &str) -> String {
     format!(
         "[render]\nsize = [24, 24]\n[[camera]]\nname = \"main\"\nposition = [0, 9, 0]\ntarget = [0, 0, 0]\nup = [0, 0, -1]\n\
@@ -157,18 +186,18 @@ fn points(count: usize, [min, max]: [[f64; 3]; 2], range: f64) -> String {
 /// Thousands of lights in every cluster that reach 2 cm, over it and below, level with its box and not.
 #[test]
 fn lights_smaller_than_their_cluster() {
-    let layer = |low: f64, high: f64, range: f64| points(250_000, [[-3.5, low, -3.5], [3.5, high, 3.5]], range);
+    let layer =
+        |low: f64, high: f64, range: f64| points(250_000, [[-3.5, low, -3.5], [3.5, high, 3.5]], range);
     let scenes = [
         ("floor", plane([0.0; 3], &layer(0.002, 0.018, 0.02))),
         ("both sides", plane([0.0; 3], &layer(-0.018, 0.018, 0.02))),
-        ("slope", plane([20.0, 0.0, 25.0], &layer(-0.3, 0.3, 0.06))),
-        ("slope, wide", plane([20.0, 0.0, 25.0], &layer(-1.5, 1.5, 0.3))),
+        ("slope", plane([20.0, 0.0, 25.0], &layer(-1.5, 1.5, 0.3))),
     ];
     for (name, text) in scenes {
         let truth = truth(&text);
         for cap in CAPS {
             let mut rig = Rig::with(scene(&text), |settings| settings.max_lights_per_cluster = cap);
-            let cost = Cost::of(&format!("{name}, {cap}"), &mut rig, &truth);
+            Cost::of(&format!("{name}, {cap}"), &mut rig, &truth).check([0.5, 2.0]);
         }
     }
 }
@@ -176,13 +205,15 @@ fn lights_smaller_than_their_cluster() {
 /// Clusters 2 m wide, and many lights at one point, near and far.
 #[test]
 fn one_point_over_wide_clusters() {
-    for height in [0.3, 1.0, 3.0] {
+    for height in [1.0, 3.0] {
         let lights = points(20_000, [[0.2, height, 0.3]; 2], 9.0);
-        let text = plane([0.0; 3], &lights).replace("orthographic_height = 6", "orthographic_height = 12").replace("size = 20", "size = 40");
+        let text = plane([0.0; 3], &lights)
+            .replace("orthographic_height = 6", "orthographic_height = 12")
+            .replace("size = 20", "size = 40");
         let truth = truth(&text);
         for cap in [8, 1024] {
             let mut rig = Rig::with(scene(&text), |settings| settings.max_lights_per_cluster = cap);
-            let cost = Cost::of(&format!("{height} m, {cap}"), &mut rig, &truth);
+            Cost::of(&format!("{height} m, {cap}"), &mut rig, &truth).check([0.5, 2.0]);
         }
     }
 }
@@ -190,18 +221,33 @@ fn one_point_over_wide_clusters() {
 /// Two planes far apart, so that neither is at the origin, and the camera over one of them.
 #[test]
 fn far_from_the_origin() {
+    let mut near = None;
     for x in [0.0, 1e4, 1e5, 1e6] {
         let scale = if x < 1e6 { 1.0 } else { 8.0 };
         let wide = |v: f64| scale * v;
-        let text = plane([0.0; 3], &points(4000, [[x - wide(4.0), wide(0.3), wide(-4.0)], [x + wide(4.0), wide(2.0), wide(4.0)]], wide(3.0)))
-            .replace("position = [0, 9, 0]", &format!("position = [{x:?}, {:?}, 0]", wide(9.0)))
-            .replace("target = [0, 0, 0]", &format!("target = [{x:?}, 0, 0]"))
-            .replace("orthographic_height = 6.0", &format!("orthographic_height = {:?}", wide(6.0)))
-            .replace("size = 20", &format!("size = {:?}\ntranslate = [{x:?}, 0, 0]", wide(20.0)));
-        let text = format!("{text}[[mesh]]\nshape = \"plane\"\nsize = 1\nmaterial = \"grey\"\ntranslate = [{:?}, -1, 0]\n", -x);
+        let text = plane(
+            [0.0; 3],
+            &points(
+                4000,
+                [[x - wide(4.0), wide(0.3), wide(-4.0)], [x + wide(4.0), wide(2.0), wide(4.0)]],
+                wide(3.0),
+            ),
+        )
+        .replace("position = [0, 9, 0]", &format!("position = [{x:?}, {:?}, 0]", wide(9.0)))
+        .replace("target = [0, 0, 0]", &format!("target = [{x:?}, 0, 0]"))
+        .replace("orthographic_height = 6.0", &format!("orthographic_height = {:?}", wide(6.0)))
+        .replace("size = 20", &format!("size = {:?}\ntranslate = [{x:?}, 0, 0]", wide(20.0)));
+        let text = format!(
+            "{text}[[mesh]]\nshape = \"plane\"\nsize = 1\nmaterial = \"grey\"\ntranslate = [{:?}, -1, 0]\n",
+            -x
+        );
         let truth = truth(&text);
         let mut rig = Rig::with(scene(&text), |settings| settings.max_lights_per_cluster = 64);
-        let cost = Cost::of(&format!("{x:e} m"), &mut rig, &truth);
+        // On matte the spread of directions does less than the estimate takes it for.
+        let cost = Cost::of(&format!("{x:e} m"), &mut rig, &truth).check([0.5, 4.0]);
+        near.get_or_insert(cost.mean);
+        let ratio = cost.mean / near.unwrap();
+        assert!((0.9..=1.1).contains(&ratio), "{x:e} m: error {ratio} times that at the origin");
     }
 }
 
