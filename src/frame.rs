@@ -75,7 +75,7 @@ impl Frame {
         let capacity = Capacity::start(tiles, work.lists, mask);
         let frame = Self {
             prepass: Prepass::new(&inputs, &targets, work.resolve)?,
-            cluster: clustered(work).then(|| ClusterPass::new(&inputs, work, false)).transpose()?,
+            cluster: clustered(work).then(|| ClusterPass::new(&inputs, work)).transpose()?,
             resolve: work
                 .resolve
                 .then(|| Resolve::new(&inputs, &targets, work.folded, capacity.clusters))
@@ -145,7 +145,7 @@ impl Frame {
         self.forward.resize(&self.device, &self.targets)?;
         let now = self.lists.capacity;
         let start = Capacity::start(tiles_of(size), self.work.lists, now.mask);
-        let capacity = Capacity { folds: now.folds, nodes: now.nodes, ..start };
+        let capacity = Capacity { folds: now.folds, ..start };
         if let Some(resolve) = &mut self.resolve {
             resolve.resize(&self.targets);
             resolve.grow(&self.device, &self.scene, capacity.clusters)?;
@@ -199,11 +199,9 @@ impl Frame {
     /// Makes room, and the passes that fold lists where this frame is the first to need them.
     fn grow(&mut self, capacity: Capacity) -> Result<()> {
         let inputs = pass_inputs(&self.device, &self.scene, &self.settings);
-        if capacity.folds && !self.lists.capacity.folds {
-            self.cluster = Some(ClusterPass::new(&inputs, self.work, true)?);
-        }
-        if capacity.nodes && !self.work.folded {
+        if capacity.folds && !self.work.folded {
             self.work.folded = true;
+            self.cluster = Some(ClusterPass::new(&inputs, self.work)?);
             if self.work.resolve {
                 self.resolve = Some(Resolve::new(&inputs, &self.targets, true, capacity.clusters)?);
             }
@@ -305,6 +303,7 @@ impl Frame {
         [constants.parent_texels, constants.sibling_texels, constants.list_texels] =
             self.lists.capacity.first_texels().map(|texel| texel as u32);
         constants.list_capacity = self.lists.capacity.texels;
+        constants.fold_nodes = if self.work.folded { shared::FOLD_NODES } else { 0 };
         constants.area_lights = self.scene.area.count;
         constants.area_texels = self.lists.capacity.mask;
         if self.work.cut {

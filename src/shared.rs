@@ -37,11 +37,14 @@ shared! {
         PARENT_ROOM = 2048;
         /// Bits of a parent's count of entries; what they are lies above.
         PARENT_COUNT_BITS = 30;
-        /// Nodes that the lights beyond a list's cap are folded into: one for each octant, and for each invocation of the
-        /// workgroup that does it.
+        /// Nodes that the lights beyond a list's cap are folded into: one for each octant of directions.
         FOLD_NODES = 8;
-        /// Texels of such a node: position; irradiance; its slope, with the constant in the position's fourth.
+        /// Texels of such a node: direction, and how it turns; irradiance; its slope and constant.
         FOLD_TEXELS = 3;
+        /// Texels of a folded list's nodes, behind the point that they are relative to.
+        FOLD_ROOM = 25;
+        /// Invocations of the workgroup that folds a list.
+        FOLD_LANES = 32;
         /// Depth slices at most.
         MAX_SLICES = 256;
         /// Invocations of one-dimensional compute work.
@@ -435,6 +438,8 @@ shared! {
             cut_share: float;
             /// Largest squared radius of a node, of the scale on which a lobe changes.
             cut_lobe2: float;
+            /// Nodes of a list beyond the cap; 0 until there is a pass that writes such lists.
+            fold_nodes: uint;
         }
         /// Push constants of a draw.
         DrawConstants {
@@ -548,12 +553,10 @@ shared! {
             entries: uint;
             /// Longest list before the cap.
             longest: uint;
-            /// Lists over the cap.
+            /// Lists over the cap: clusters with folded lights.
             overflowed: uint;
             /// Lights that are folded, summed over lists.
             folded: uint;
-            /// Clusters with folded lights, or with a crowded parent.
-            folding: uint;
             /// Bits of the largest estimate of the relative error that folding causes in a cluster.
             fold_error: uint;
             /// Nodes, roots and leaves in all cuts.

@@ -47,7 +47,8 @@ void main() {
     } else if (AOV == AOV_MATERIAL) {
         value = vec4(vec3(float(draw.material)), 1.0);
     } else if (AOV == AOV_LIGHT_COUNT) {
-        value = vec4(vec3(float(list_at(pixel).count + unranged_count(pixel) + area_count(pixel))), 1.0);
+        LightList list = list_at(pixel);
+        value = vec4(vec3(float(list.count + list.nodes + unranged_count(pixel) + area_count(pixel))), 1.0);
     } else if (AOV == AOV_CLUSTER) {
         uint id = cluster_at(pixel);
         value = vec4(vec3(id == NO_CLUSTER ? -1.0 : float(id)), 1.0);

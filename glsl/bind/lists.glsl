@@ -9,7 +9,7 @@ layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) readonly buffer Cluste
 struct LightList {
     uint texel;  // first texel
     uint count;  // lights
-    uint nodes;  // of lights that are folded, behind the list
+    uint nodes;  // of lights that are folded; behind the list, and behind the point that they are relative to
 };
 
 // The cluster that the pixel's surface lies in. The id was stored by the cluster pass: computing it here again could
@@ -21,10 +21,12 @@ LightList list_of(uint id) {
     if (id >= frame.cluster_capacity) return LightList(0u, 0u, 0u);
     uint reaching = clusters[id].reaching;
     uint count = min(reaching, frame.max_list);
-    uint nodes = reaching > count ? FOLD_NODES : 0u;
+    bool folded = reaching > count;
     uint texel = clusters[id].list;
-    bool fits = texel + (count + 3u) / 4u + nodes * FOLD_TEXELS <= frame.list_capacity;
-    return fits ? LightList(texel, count, nodes) : LightList(0u, 0u, 0u);
+    bool fits = texel + (count + 3u) / 4u + (folded ? FOLD_ROOM : 0u) <= frame.list_capacity;
+    // The first frame that has to fold does not know how yet: it is rendered again, and until then nobody has written these.
+    bool written = !folded || frame.fold_nodes > 0u;
+    return fits && written ? LightList(texel, count, folded ? frame.fold_nodes : 0u) : LightList(0u, 0u, 0u);
 }
 
 LightList list_at(ivec2 pixel) { return list_of(cluster_at(pixel)); }

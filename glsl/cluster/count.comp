@@ -10,13 +10,12 @@
 #include "lib/cluster.glsl"
 #include "lib/parent.glsl"
 #include "cluster/reach.glsl"
+#include "cluster/members.glsl"
 
 // As many clusters a workgroup as the other steps have.
 layout(local_size_x = LINEAR_GROUP / SIBLINGS) in;
 layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) buffer ClusterBlock { Cluster clusters[]; };
 layout(set = SET_frame, binding = FRAME_COUNTERS, std430) readonly buffer CounterBlock { Counters counters; };
-layout(set = SET_frame, binding = FRAME_LISTS) uniform utexture2DArray parent_lists;
-layout(set = SET_frame, binding = FRAME_LISTS_OUT, rgba32ui) writeonly uniform uimage2DArray light_lists;
 
 vec3 lower[SIBLINGS];
 vec3 upper[SIBLINGS];
@@ -31,12 +30,10 @@ void load_siblings(uint first, uint count) {
 
 uvec4 group_hits(Cluster parent, uint group) {
     uint kind = parent_kind(parent);
-    uint leaf = group;
-    if (kind == OF_LEAVES) leaf = texelFetch(parent_lists, list_texel(parent.list + group / 4u), 0)[group & 3u];
-    leaf *= LEAF_LIGHTS;
+    uint leaf = leaf_of(parent, group) * LEAF_LIGHTS;
     uvec4 hits = uvec4(0u);
     [[unroll]] for (uint i = 0u; i < LEAF_LIGHTS; i += 4u) {
-        uvec4 four = texelFetch(parent_lists, list_texel(parent.list + (group * LEAF_LIGHTS + i) / 4u), 0);
+        uvec4 four = imageLoad(light_lists, list_texel(parent.list + (group * LEAF_LIGHTS + i) / 4u));
         four = kind == OF_LIGHTS ? four : leaf + uvec4(i, i + 1u, i + 2u, i + 3u);
         [[unroll]] for (uint j = 0u; j < 4u; ++j) {
             vec4 place = light_place(four[j]);
@@ -57,7 +54,8 @@ void main() {
     // The frame is rendered again with room for all parents.
     if (number >= frame.parent_capacity) return;
     Cluster parent = clusters[frame.cluster_capacity + number];
-    load_siblings(first, parent.children - (first - parent.parent));
+    uint siblings = parent.children - (first - parent.parent);
+    load_siblings(first, siblings);
     uint groups = parent_groups(parent);
     uint texel = sibling_masks(first);
     uvec4 reaching = uvec4(0u);
@@ -66,5 +64,11 @@ void main() {
         reaching += uvec4(bitCount(hits));
         if (parent_kind(parent) == OF_LIGHTS) imageStore(light_lists, list_texel(texel + i), hits);
     }
-    [[unroll]] for (uint i = 0u; i < SIBLINGS; ++i) clusters[first + i].reaching = reaching[i];
+    [[unroll]] for (uint i = 0u; i < SIBLINGS; ++i) {
+        clusters[first + i].reaching = reaching[i];
+        // Numbers that no cluster took may hold those of another frame.
+        uvec2 pixels = i < siblings ? clusters[first + i].pixels : uvec2(0u);
+        clusters[first + i].pixels = pixels;
+        clusters[first + i].pixel_count = uint(bitCount(pixels.x) + bitCount(pixels.y));
+    }
 }

@@ -1,7 +1,7 @@
-// Step 10, where lists are longer than the cap or parents are crowded: one workgroup a cluster. Its strongest lights are
-// listed, in Hilbert order; the rest is folded into a node for each octant around the cluster, behind the list.
+// Step 10, where lists are longer than the cap: one workgroup a cluster. Its strongest lights are listed, in Hilbert order;
+// the rest is folded into a node for each octant of directions, behind the list.
 //
-// lavapipe ends an invocation's loops after 65,535 iterations in all: a million lights are 4,096 rounds of nine.
+// lavapipe ends an invocation's loops after 65,535 iterations in all: of a million lights, 1,024 rounds of 17 and of 35.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -13,74 +13,76 @@
 #include "lib/light.glsl"
 #include "lib/parent.glsl"
 #include "cluster/reach.glsl"
+#include "cluster/members.glsl"
 
-#define LANES FOLD_NODES
+#define LANES FOLD_LANES
 #include "cluster/lane_sums.glsl"
 
-layout(local_size_x = FOLD_NODES) in;
+layout(local_size_x = FOLD_LANES) in;
 layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) buffer ClusterBlock { Cluster clusters[]; };
 layout(set = SET_frame, binding = FRAME_COUNTERS, std430) buffer CounterBlock { Counters counters; };
-layout(set = SET_frame, binding = FRAME_LISTS) uniform utexture2DArray parent_lists;
-layout(set = SET_frame, binding = FRAME_LISTS_OUT, rgba32ui) writeonly uniform uimage2DArray light_lists;
+layout(set = SET_frame, binding = FRAME_DEPTH) uniform texture2D depth_texture;
 
 // Of a strength's bits: exponent and three of the mantissa.
 const uint BIN_SHIFT = 20u;
 const uint BINS = 2048u;
 // Lights of a group that are unrolled.
-const uint UNROLLED = 16u;
-
-shared uint bins[BINS];
+const uint UNROLLED = 2u;
 
 Cluster here;
 Cluster parent;
-vec3 middle;
-vec3 offsets;  // of the points of cubature, along each axis
 
+#include "cluster/fold_points.glsl"
 #include "cluster/fold.glsl"
 
-// Strength: mean irradiance over the cluster. Four points of the box whose mean is exact for quadratic functions.
-float strength(uint light, out vec4 at_points) {
-    vec4 place = light_place(light);
-    vec4 power = light_power(light);
-    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
-        vec3 d = place.xyz - (middle + FOLD_POINTS[k] * offsets);
-        at_points[k] = falloff(dot(d, d), place.w, power.w);
-    }
-    at_points *= dot(power.rgb, vec3(1.0 / 3.0));
-    return dot(at_points, vec4(0.25));
-}
-
+// The i-th light of a group.
 uint light_of(uint group, uint i) {
-    uint kind = parent_kind(parent);
-    uint entry = kind == OF_LIGHTS ? group * LEAF_LIGHTS + i : group;
-    uint value = texelFetch(parent_lists, list_texel(parent.list + entry / 4u), 0)[entry & 3u];
-    return kind == OF_LIGHTS ? value : (kind == OF_ALL ? group : value) * LEAF_LIGHTS + i;
+    return parent_kind(parent) == OF_LIGHTS ? entry_of(parent, group * LEAF_LIGHTS + i)
+                                            : leaf_of(parent, group) * LEAF_LIGHTS + i;
 }
 
-// Lights of a group that reach the cluster; those among them whose bin is above the threshold, and in it.
-uvec3 group_words(uint group, uint threshold, bool note) {
-    uvec3 words = uvec3(0u);
-    if (group >= parent_groups(parent)) return words;
-    uint left = parent_kind(parent) == OF_LIGHTS ? parent_entries(parent) - group * LEAF_LIGHTS
-                                                 : frame.direct_begin - light_of(group, 0u);
-    for (uint first = 0u; first < LEAF_LIGHTS; first += UNROLLED) {
-        [[unroll]] for (uint j = 0u; j < UNROLLED; ++j) {
-            uint light = light_of(group, first + j);
-            if (first + j >= left || !reaches(light_place(light), here.lower, here.upper)) continue;
-            vec4 at_points;
-            uint bin = min(floatBitsToUint(strength(light, at_points)) >> BIN_SHIFT, BINS - 1u);
-            if (note) atomicAdd(bins[bin], 1u);
-            words |= uvec3(1u, uint(bin > threshold), uint(bin == threshold)) << (first + j);
+// Lights of a group that reach the cluster.
+uint hits_of(uint id, uint group) {
+    if (group >= parent_groups(parent)) return 0u;
+    if (parent_kind(parent) != OF_LIGHTS) return crowd_hits(parent, group, here.lower, here.upper);
+    return pick(imageLoad(light_lists, list_texel(sibling_masks(id) + group)), id % SIBLINGS);
+}
+
+uint bin_of(float strength) { return min(floatBitsToUint(strength) >> BIN_SHIFT, BINS - 1u); }
+
+void note(uint group, uint hits) {
+    while (hits != 0u) {
+        [[unroll]] for (uint i = 0u; i < UNROLLED; ++i) {
+            float value = strength(light_of(group, uint(findLSB(hits)) & 31u));
+            if (hits != 0u) atomicAdd(words[bin_of(value)], 1u);
+            hits &= hits - 1u;
         }
     }
-    return words;
+}
+
+// Lights among `hits` whose bin is above the threshold, and in it.
+uvec2 stronger(uint group, uint hits, uint threshold) {
+    uvec2 found = uvec2(0u);
+    while (hits != 0u) {
+        [[unroll]] for (uint i = 0u; i < UNROLLED; ++i) {
+            uint at = uint(findLSB(hits)) & 31u;
+            float value = strength(light_of(group, at));
+            uint bin = bin_of(value);
+            if (hits != 0u) {
+                total += value;
+                found |= uvec2(uint(bin > threshold), uint(bin == threshold)) << at;
+            }
+            hits &= hits - 1u;
+        }
+    }
+    return found;
 }
 
 // The bin of the weakest lights kept, and how many of it are.
 uvec2 threshold_of(uint cap) {
     uint above = 0u;
     uint bin = BINS - 1u;
-    for (; bin > 0u && above + bins[bin] < cap; --bin) above += bins[bin];
+    for (; bin > 0u && above + words[bin] < cap; --bin) above += words[bin];
     return uvec2(bin, cap - above);
 }
 
@@ -91,41 +93,44 @@ uint lowest(uint word, uint count) {
     return word & ~rest;
 }
 
+// What is left of `room` behind the invocations below, whose sum is the first of `sums`.
+uint room_of(uint room, uvec4 sums) { return room - min(room, sums.x); }
+
 #include "cluster/append.glsl"
 
 void main() {
     uint workgroup = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    if (workgroup >= counters.folding) return;
+    if (workgroup >= counters.overflowed) return;
     uint lane = gl_LocalInvocationIndex;
     uint id = clusters[workgroup].folded;
     here = clusters[id];
-    if (here.parent >= frame.parent_capacity) return;
     parent = clusters[frame.cluster_capacity + here.parent];
-    uint kept = min(here.reaching, frame.max_list);
-    begin_list(here.list, (kept + 3u) / 4u);
-    bool all_fit = kept == here.reaching;
-    if (end + (all_fit ? 0u : FOLD_NODES * FOLD_TEXELS) > frame.list_capacity) return;
-    middle = 0.5 * (here.lower + here.upper);
-    offsets = (here.upper - here.lower) * (0.5 * inversesqrt(3.0));
+    begin_list(here.list, (frame.max_list + 3u) / 4u);
+    if (end + FOLD_ROOM > frame.list_capacity) return;
+    load_points(here);
     uint groups = parent_groups(parent);
 
-    for (uint i = lane; i < BINS; i += FOLD_NODES) bins[i] = 0u;
+    for (uint i = lane; i < BINS; i += FOLD_LANES) words[i] = 0u;
     barrier();
-    if (!all_fit) {
-        for (uint first = 0u; first < groups; first += FOLD_NODES) group_words(first + lane, 0u, true);
-    }
+    for (uint first = 0u; first < groups; first += FOLD_LANES) note(first + lane, hits_of(id, first + lane));
     barrier();
-    uvec2 threshold = all_fit ? uvec2(0u, ~0u) : threshold_of(frame.max_list);
+    uvec2 threshold = threshold_of(frame.max_list);
+    barrier();
     clear_nodes();
-    for (uint first = 0u; first < groups; first += FOLD_NODES) {
-        uvec3 words = group_words(first + lane, threshold.x, false);
-        uvec4 ties = lane_sums(uvec2(bitCount(words.z), 0u));
-        uint quota = threshold.y > ties.x ? threshold.y - ties.x : 0u;
-        uint listed = words.y | lowest(words.z, min(quota, 32u));
-        threshold.y = threshold.y > ties.z ? threshold.y - ties.z : 0u;
-        append(first + lane, listed);
-        if (!all_fit) fold(first + lane, words.x, listed);
+    uint room = frame.max_list;
+    for (uint first = 0u; first < groups; first += FOLD_LANES) {
+        uint hits = hits_of(id, first + lane);
+        uvec2 found = stronger(first + lane, hits, threshold.x);
+        uvec4 ties = lane_sums(uvec2(bitCount(found.y), 0u));
+        uint listed = found.x | lowest(found.y, room_of(threshold.y, ties));
+        threshold.y -= min(threshold.y, ties.z);
+        // The threshold leaves as much as there is room for; should the two disagree, what is too much is folded.
+        uvec4 sums = lane_sums(uvec2(bitCount(listed), 0u));
+        listed = lowest(listed, room_of(room, sums));
+        append(first + lane, listed, sums, room);
+        room -= min(room, sums.z);
+        fold(first + lane, hits & ~listed);
     }
     end_list();
-    if (!all_fit) write_nodes(id, end);
+    write_nodes(id, end);
 }

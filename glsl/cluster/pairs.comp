@@ -39,8 +39,9 @@ TilePairs pairs_of(ivec2 pixel, vec3 position) {
     uint unranged = unranged_count(pixel);
     LightList list = list_at(pixel);
     uint area = area_count(pixel);
-    uint useful = lights_within(list, position) + unranged + area_useful(pixel, position);
-    return TilePairs(list.count + unranged + area, useful, area, frame.area_lights);
+    // Nodes count as lights, and all as useful: what they stand for reaches the cluster.
+    uint useful = lights_within(list, position) + list.nodes + unranged + area_useful(pixel, position);
+    return TilePairs(list.count + list.nodes + unranged + area, useful, area, frame.area_lights);
 }
 
 void main() {

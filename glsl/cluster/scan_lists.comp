@@ -10,16 +10,11 @@ layout(set = SET_frame, binding = FRAME_COUNTERS, std430) buffer CounterBlock { 
 
 shared uint longest[SCAN_GROUP];
 
-// Whether step 10 makes the list: it is longer than the cap, or its parent's is not of lights.
-bool folds(uint id) {
-    // Where parents have no room yet, the frame is rendered again.
-    if (clusters[id].parent >= frame.parent_capacity) return false;
-    uint kind = clusters[frame.cluster_capacity + clusters[id].parent].reaching >> PARENT_COUNT_BITS;
-    return clusters[id].reaching > frame.max_list || kind != 0u;
-}
+// Lights that reach a cluster; where parents have no room yet, none are known, and the frame is rendered again.
+uint reaching(uint id) { return clusters[id].parent < frame.parent_capacity ? clusters[id].reaching : 0u; }
 
-uint texels_of(uint reaching) {
-    return (min(reaching, frame.max_list) + 3u) / 4u + (reaching > frame.max_list ? FOLD_NODES * FOLD_TEXELS : 0u);
+uint texels_of(uint lights) {
+    return (min(lights, frame.max_list) + 3u) / 4u + (lights > frame.max_list ? FOLD_ROOM : 0u);
 }
 
 void main() {
@@ -29,24 +24,22 @@ void main() {
     uint entries = 0u;
     uint overflowed = 0u;
     uint folded = 0u;
-    uint folding = 0u;
     longest[lane] = 0u;
     for (uint id = range.x; id < range.y; ++id) {
-        uint reaching = clusters[id].reaching;
-        uint kept = min(reaching, frame.max_list);
-        texels += texels_of(reaching);
+        uint lights = reaching(id);
+        uint kept = min(lights, frame.max_list);
+        texels += texels_of(lights);
         entries += kept;
-        overflowed += uint(reaching > kept);
+        overflowed += uint(lights > kept);
         // A sum of so many chunks stays within 32 bits.
-        folded = min(folded + reaching - kept, ~0u / SCAN_GROUP);
-        folding += uint(folds(id));
-        longest[lane] = max(longest[lane], reaching);
+        folded = min(folded + lights - kept, ~0u / SCAN_GROUP);
+        longest[lane] = max(longest[lane], lights);
     }
     uint total;
     uint texel = frame.list_texels + exclusive_sum(texels, total);
     for (uint id = range.x; id < range.y; ++id) {
         clusters[id].list = texel;
-        texel += texels_of(clusters[id].reaching);
+        texel += texels_of(reaching(id));
     }
     if (lane == 0u) {
         counters.list_texels = frame.list_texels + total;
@@ -54,21 +47,18 @@ void main() {
         for (uint i = 0u; i < SCAN_GROUP; ++i) counters.longest = max(counters.longest, longest[i]);
     }
     barrier();
-    uint next = exclusive_sum(folding, total);
+    uint next = exclusive_sum(overflowed, total);
     for (uint id = range.x; id < range.y; ++id) {
-        if (folds(id)) clusters[next++].folded = id;
+        if (reaching(id) > frame.max_list) clusters[next++].folded = id;
     }
     if (lane == 0u) {
-        counters.folding = total;
+        counters.overflowed = total;
         counters.folds_x = min(total, MAX_GROUPS);
         counters.folds_y = (total + MAX_GROUPS - 1u) / MAX_GROUPS;
     }
     barrier();
     exclusive_sum(entries, total);
     if (lane == 0u) counters.entries = total;
-    barrier();
-    exclusive_sum(overflowed, total);
-    if (lane == 0u) counters.overflowed = total;
     barrier();
     exclusive_sum(folded, total);
     if (lane == 0u) counters.folded = total;

@@ -27,7 +27,7 @@ void main() {
         sum += reflected(surface, four.w);
     }
     if (FOLDED) {
-        for (uint i = 0u; i < list.nodes; ++i) sum += reflected_node(surface, end + i * FOLD_TEXELS);
+        for (uint i = 0u; i < list.nodes; ++i) sum += reflected_node(surface, end, i);
     }
     radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
 }

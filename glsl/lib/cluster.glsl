@@ -1,4 +1,4 @@
-// Pixel and depth to view depth, slice and world position; where a list's texel lies.
+// Pixel and depth to view depth, slice and world position; where a list's texel lies; which pixels a mask has.
 #ifndef LIB_CLUSTER_GLSL
 #define LIB_CLUSTER_GLSL
 
@@ -27,6 +27,22 @@ ivec3 list_texel(uint texel) {
             int(texel & ((1u << LIST_WIDTH_LOG2) - 1u)),
             int((texel >> LIST_WIDTH_LOG2) & ((1u << LIST_HEIGHT_LOG2) - 1u)),
             int(texel >> (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2)));
+}
+
+// Number of the n-th bit that is set.
+uint nth_bit(uvec2 bits, uint n) {
+    uint low = uint(bitCount(bits.x));
+    uint word = n < low ? bits.x : bits.y;
+    uint at = n < low ? 0u : 32u;
+    n -= n < low ? 0u : low;
+    for (uint width = 16u; width > 0u; width >>= 1) {
+        uint below = uint(bitCount(word & ((1u << width) - 1u)));
+        uint skip = n >= below ? width : 0u;
+        n -= n >= below ? below : 0u;
+        word >>= skip;
+        at += skip;
+    }
+    return at;
 }
 
 #endif

@@ -31,22 +31,6 @@ layout(set = SET_resolve, binding = RESOLVE_WORK, std430) readonly buffer WorkBl
 #define EACH(STEP) STEP(0u) STEP(1u) STEP(2u) STEP(3u)
 #endif
 
-// Number of the n-th bit that is set.
-uint nth_bit(uvec2 bits, uint n) {
-    uint low = uint(bitCount(bits.x));
-    uint word = n < low ? bits.x : bits.y;
-    uint at = n < low ? 0u : 32u;
-    n -= n < low ? 0u : low;
-    [[unroll]] for (uint width = 16u; width > 0u; width >>= 1) {
-        uint below = uint(bitCount(word & ((1u << width) - 1u)));
-        uint skip = n >= below ? width : 0u;
-        n -= n >= below ? below : 0u;
-        word >>= skip;
-        at += skip;
-    }
-    return at;
-}
-
 void main() {
     ResolveDispatch work = dispatches[RESOLVED * RESOLVE_PIXELS + PIXELS - 1u];
     uint group = gl_WorkGroupID.y * MAX_GROUPS + gl_WorkGroupID.x;
@@ -92,8 +76,7 @@ void main() {
     }
     if (FOLDED) {
         for (uint node = 0u; node < list.nodes; ++node) {
-            uint texel = end + node * FOLD_TEXELS;
-#define NODE(i) sums[i] += reflected_node(surfaces[i], texel);
+#define NODE(i) sums[i] += reflected_node(surfaces[i], end, node);
             EACH(NODE)
         }
     }

@@ -8,7 +8,7 @@ use crate::passes::aov::Quantity;
 use crate::passes::cluster::ClusterTargets;
 use crate::passes::floors::{FloorPass, Floors};
 use crate::passes::pairs::{PairCount, PairPass};
-use crate::shared::Counters;
+use crate::shared::{Cluster, Counters};
 use crate::targets::Targets;
 use std::sync::Arc;
 
@@ -97,20 +97,20 @@ impl Frame {
         if self.cluster.is_some() { self.counters } else { Counters::default() }
     }
 
-    /// Estimated mean relative error of the picture last rendered, from the cuts of the tree over lights without a range: over
-    /// the pixels with a surface. 0 where every light that reaches a pixel is evaluated.
+    /// Estimated mean relative error of the picture last rendered, from folded lists and from the cuts of the tree over lights
+    /// without a range: over the pixels with a surface. 0 where every light that reaches a pixel is evaluated.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn light_error(&self) -> Result<f64> {
-        if !self.work.cut {
+        if !self.work.cut && !self.work.folded {
             return Ok(0.0);
         }
         let clusters = self.lists.clusters.fetch(Use::ComputeWrite)?;
         let occupied = &clusters[..clusters.len().min(self.counters.clusters as usize)];
         let pixels: f64 = occupied.iter().map(|cluster| f64::from(cluster.pixel_count)).sum();
-        let errors =
-            occupied.iter().map(|cluster| f64::from(cluster.pixel_count) * f64::from(cluster.cut_error));
+        let error = |cluster: &Cluster| f64::from(cluster.error) + f64::from(cluster.cut_error);
+        let errors = occupied.iter().map(|cluster| f64::from(cluster.pixel_count) * error(cluster));
         Ok(errors.sum::<f64>() / pixels.max(1.0))
     }
 

@@ -10,7 +10,7 @@
 //! 7. `count`: which lights of its parent's list reach each cluster, kept as masks.
 //! 8. `scan_lists`: where each list lies.
 //! 9. `write`: the lists, in Hilbert order, four indices a texel, from the masks.
-//! 10. `fold`: lists longer than the cap, and those of crowded parents.
+//! 10. `fold`: lists longer than the cap.
 //! 11. `cut_count`: how many nodes of their tree stand for lights without a range.
 //! 12. `scan_cuts`: where each cut lies.
 //! 13. `cut_write`: the cuts.
@@ -149,8 +149,8 @@ impl ClusterPass {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, work: Work, folds: bool) -> Result<Self> {
-        let Work { lists, masks, resolve, cut, .. } = work;
+    pub fn new(inputs: &PassInputs<'_>, work: Work) -> Result<Self> {
+        let Work { lists, masks, resolve, cut, folded, .. } = work;
         let with = |shader, specialization: &Specialization| {
             ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, specialization)
         };
@@ -163,7 +163,7 @@ impl ClusterPass {
                 scan_lists: step(shaders::CLUSTER_SCAN_LISTS_COMP)?,
                 write: step(shaders::CLUSTER_WRITE_COMP)?,
                 split: step(shaders::CLUSTER_SPLIT_COMP)?,
-                fold: folds.then(|| step(shaders::CLUSTER_FOLD_COMP)).transpose()?,
+                fold: folded.then(|| step(shaders::CLUSTER_FOLD_COMP)).transpose()?,
             })
         };
         let of_cuts = || -> Result<Cuts> {
@@ -175,7 +175,7 @@ impl ClusterPass {
         };
         let notes = lanes
             .clone()
-            .with(shared::SPEC_NOTE_PIXELS, u32::from(resolve || cut))
+            .with(shared::SPEC_NOTE_PIXELS, u32::from(resolve || cut || folded))
             .with(shared::SPEC_NOTE_VARIANTS, u32::from(resolve));
         Ok(Self {
             slices: with(shaders::CLUSTER_SLICES_COMP, &lanes)?,

@@ -56,7 +56,7 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             // One workgroup per tile: one invocation per pixel.
             "cluster/pairs.comp" | "cluster/floors.comp" => Some([tile, tile, 1]),
             "cluster/bands.comp" => Some([sized("BANDS"), 1, 1]),
-            "cluster/fold.comp" => Some([sized("FOLD_NODES"), 1, 1]),
+            "cluster/fold.comp" => Some([sized("FOLD_LANES"), 1, 1]),
             "cluster/count.comp" => Some([linear / sized("SIBLINGS"), 1, 1]),
             "cluster/scan_tiles.comp"
             | "cluster/scan_lists.comp"

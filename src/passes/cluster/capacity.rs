@@ -19,10 +19,8 @@ pub struct Capacity {
     pub mask: u32,
     /// Texels of masks and lists.
     pub texels: u32,
-    /// Step 10 has lists to make.
+    /// Some lists end in nodes of folded lights.
     pub folds: bool,
-    /// Some of them end in nodes of folded lights.
-    pub nodes: bool,
 }
 
 impl Capacity {
@@ -31,7 +29,7 @@ impl Capacity {
     pub fn start(tiles: [u32; 2], lists: bool, mask: u32) -> Self {
         let clusters = (area(tiles).max(32) * 2).next_multiple_of(LINEAR_GROUP);
         let parents = if lists { 4 * area(blocks(tiles)) } else { 0 };
-        let room = Self { clusters, parents, mask, texels: 0, folds: false, nodes: false };
+        let room = Self { clusters, parents, mask, texels: 0, folds: false };
         room.with_texels(room.first_texels()[2] + u64::from(area(tiles)) * 32)
     }
 
@@ -59,9 +57,8 @@ impl Capacity {
     pub fn grown(self, counters: &Counters) -> Option<Self> {
         let clusters = room(self.clusters, counters.clusters).next_multiple_of(LINEAR_GROUP);
         let parents = if self.parents > 0 { room(self.parents, counters.parents) } else { 0 };
-        let folds = self.folds || counters.folding > 0;
-        let nodes = self.nodes || counters.overflowed > 0;
-        let larger = Self { clusters, parents, folds, nodes, ..self };
+        let folds = self.folds || counters.overflowed > 0;
+        let larger = Self { clusters, parents, folds, ..self };
         // Where clusters were missing, so were their lists: the texels needed are known only next time.
         let lists = u64::from(room(self.texels, counters.list_texels)) - self.first_texels()[2];
         let larger = larger.with_texels(larger.first_texels()[2] + lists);
