@@ -18,8 +18,9 @@ uint parts_of(uint index) {
     return kind == OF_LIGHTS ? 0u : (clusters[at].children + SIBLINGS - 1u) / SIBLINGS;
 }
 
+// Ids that no child took get it too: with the crowded parent they would count as clusters to be folded.
 void write_part(uint parent, uint first, uint count) {
-    for (uint id = first; id < min(first + count, frame.cluster_capacity); ++id) clusters[id].parent = parent;
+    for (uint id = first; id < min(first + SIBLINGS, frame.cluster_capacity); ++id) clusters[id].parent = parent;
     // Its children are left alone, and the frame is rendered again with room for it.
     if (parent >= frame.parent_capacity) return;
     uint list = frame.parent_texels + parent * (PARENT_ROOM / 4u);
