@@ -280,6 +280,8 @@ shared! {
         SPEC_RESOLVED = 44;
         /// Some lists are folded.
         SPEC_FOLDED = 60;
+        /// Folded lights fall on glossy surfaces too.
+        SPEC_GLOSSY = 48;
         /// Clusters note their pixels.
         SPEC_NOTE_PIXELS = 47;
         /// Clusters note the variants of their pixels.

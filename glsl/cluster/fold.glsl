@@ -3,9 +3,14 @@
 // Sums: mean irradiance rgb; over the points, irradiance times their places, times directions, times both.
 const uint SUMS = 10u;
 const uint NODE_WORDS = FOLD_NODES * SUMS * FOLD_LANES;
-// Of the light whose directions a node does not tell apart, what is wrong in a picture: nothing on a flat matte surface, where
-// 0.25 makes the estimate 3 times too large; on five materials it is 0.55 to 0.78 of the error, and 0.24 without.
-const float SPREAD_SHARE = 0.25;
+// Where folded lights fall on glossy surfaces too, to which it matters which way light comes.
+layout(constant_id = 48) const bool GLOSSY = true;
+
+// Of the light whose directions a node does not tell apart, what is wrong in a picture. A flat matte surface sees the vectors'
+// sum, and hardly any of it; five materials by the caps and lights of tests/render/folds.rs, where 0 would make the estimate a
+// quarter of the error, and 1 half as much again.
+float spread_share() { return GLOSSY ? 0.5 : 0.05; }
+
 const vec3 MEAN_OF_RGB = vec3(1.0 / 3.0);
 
 // Counts of lights by strength; then sums of nodes; then what is made of these.
@@ -199,7 +204,7 @@ float error_of() {
                          - sum3_of(OF_NODES + 3u * k * FOLD_NODES, FOLD_NODES));
     }
     float all = sum_of(OF_TOTALS, FOLD_LANES);
-    float error = missed * share + SPREAD_SHARE * sum_of(OF_SPREADS, FOLD_NODES);
+    float error = missed * share + spread_share() * sum_of(OF_SPREADS, FOLD_NODES);
     return all > 0.0 ? min(error / all, 2.0) : 0.0;
 }
 

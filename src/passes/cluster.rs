@@ -145,7 +145,7 @@ struct Cuts {
 
 impl ClusterPass {
     /// Compiles the steps: lists for lights with a range, which may have to be folded; masks for area lights. A resolve
-    /// wants to know which pixels and variants a cluster has.
+    /// wants to know which pixels and variants a cluster has, a step that folds which pixels.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
@@ -163,7 +163,7 @@ impl ClusterPass {
                 scan_lists: step(shaders::CLUSTER_SCAN_LISTS_COMP)?,
                 write: step(shaders::CLUSTER_WRITE_COMP)?,
                 split: step(shaders::CLUSTER_SPLIT_COMP)?,
-                fold: folded.then(|| step(shaders::CLUSTER_FOLD_COMP)).transpose()?,
+                fold: folded.then(|| of_fold(inputs)).transpose()?,
             })
         };
         let of_cuts = || -> Result<Cuts> {
@@ -243,6 +243,14 @@ impl Cuts {
         let steps = [(&self.count, Some(OF_CLUSTERS)), (&self.scan, None), (&self.write, Some(OF_CLUSTERS))];
         record_steps(cmd, sets, targets, steps);
     }
+}
+
+/// The step that folds lists.
+fn of_fold(inputs: &PassInputs<'_>) -> Result<ComputePipeline> {
+    let matte = (shared::SPEC_MODEL, shared::MODEL_MATTE);
+    let glossy = inputs.scene.variants.iter().any(|it| !it.specialization.values().contains(&matte));
+    let specialization = Specialization::default().with(shared::SPEC_GLOSSY, u32::from(glossy));
+    ComputePipeline::new(inputs.device, &inputs.scene.layout, shaders::CLUSTER_FOLD_COMP, &specialization)
 }
 
 /// Records steps, each with the words of the counters that say of how many workgroups, or with one.
