@@ -1,4 +1,4 @@
-//! The order of points along a Hilbert curve through their bounds, in linear time.
+//! The order of points along a Hilbert curve through their bounds, in linear time unless they crowd into few places.
 //!
 //! Keys have 10 bits an axis. They are Skilling's (2004, «Programming the Hilbert curve»), made two levels at a time by a
 //! table of the states that his algorithm can be in. A stable radix sort of three passes orders them.
@@ -10,6 +10,10 @@ use std::sync::LazyLock;
 const BITS: u32 = 10;
 /// Bits of a pass of the sort: a third of a key.
 const DIGIT: u32 = BITS;
+/// Points of one cell that keep their order: those of a leaf of the tree with moments.
+const CELL: usize = 8;
+/// From so many elements on a radix sort is faster.
+const RADIX_LEAST: usize = 2048;
 /// Orders and signs of the axes, and the sign of the Gray code.
 const STATES: usize = 6 * 8 * 2;
 
@@ -70,38 +74,72 @@ impl State {
     }
 }
 
-/// Indices of the points in the curve's order; points with equal keys keep theirs.
+/// Indices of `count` points in the curve's order; points in one place keep theirs.
+///
+/// Points that fall into one cell are ordered along a curve through their own bounds: one point far from all others, which
+/// makes the cells large, does not leave the others in disorder.
 #[must_use]
-pub fn order(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u32> {
-    let (lower, upper) = points
-        .clone()
-        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), p| (lower.min(p), upper.max(p)));
-    let extent = (upper - lower).max_element().max(f32::MIN_POSITIVE);
-    let scale = ((1 << BITS) - 1) as f32 / extent;
+pub fn order(count: usize, point: impl Fn(usize) -> Vec3) -> Vec<u32> {
+    let mut elements: Vec<u64> = (0..count as u64).collect();
+    let mut sorted = vec![0; count];
+    sort(&mut elements, &mut sorted, &point);
+    elements.into_iter().map(|element| element as u32).collect()
+}
+
+/// Sorts elements, whose lower halves are indices; those in one cell are sorted by themselves, where there are more than
+/// a leaf of the trees holds.
+fn sort(elements: &mut [u64], sorted: &mut [u64], point: &impl Fn(usize) -> Vec3) {
+    let places = elements.iter().map(|element| point(*element as u32 as usize));
+    let (lower, upper) =
+        places.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), p| (lower.min(p), upper.max(p)));
+    // Halves, so that no difference of numbers is infinite.
+    let extent = (0.5 * upper - 0.5 * lower).max_element();
+    if extent <= 0.0 {
+        return;
+    }
+    let scale = (0.5 * ((1 << BITS) - 1) as f32 / extent).min(f32::MAX);
     let steps = &*STEPS;
-    let mut counts = [[0_u32; 1 << DIGIT]; 3];
-    let mut keyed: Vec<u64> = Vec::with_capacity(points.len());
-    keyed.extend(points.enumerate().map(|(index, p)| {
-        let key = key(steps, (p - lower) * scale);
-        for (digit, counts) in counts.iter_mut().enumerate() {
-            counts[digit_of(key.into(), digit)] += 1;
+    for element in elements.iter_mut() {
+        let index = *element as u32;
+        let key = key(steps, (point(index as usize) - lower) * scale);
+        *element = u64::from(key) << 32 | u64::from(index);
+    }
+    if elements.len() < RADIX_LEAST { elements.sort_unstable() } else { radix_sort(elements, sorted) }
+    let all = elements.len();
+    let mut rest = elements;
+    while let Some(&first) = rest.first() {
+        let cell = rest.iter().take_while(|element| **element >> 32 == first >> 32).count();
+        let (run, behind) = rest.split_at_mut(cell);
+        if cell > CELL && cell < all {
+            sort(run, &mut sorted[..cell], point);
         }
-        u64::from(key) << 32 | index as u64
-    }));
-    let mut sorted = vec![0; keyed.len()];
+        rest = behind;
+    }
+}
+
+/// By the upper halves; equal ones keep their order.
+fn radix_sort(elements: &mut [u64], sorted: &mut [u64]) {
+    let mut counts = [[0_u32; 1 << DIGIT]; 3];
+    for element in &*elements {
+        for (digit, counts) in counts.iter_mut().enumerate() {
+            counts[digit_of(element >> 32, digit)] += 1;
+        }
+    }
+    let (mut from, mut to) = (elements, sorted);
     for (digit, counts) in counts.iter_mut().enumerate() {
         let mut first = 0;
         for count in counts.iter_mut() {
             (first, *count) = (first + *count, first);
         }
-        for &element in &keyed {
+        for &element in &*from {
             let place = &mut counts[digit_of(element >> 32, digit)];
-            sorted[*place as usize] = element;
+            to[*place as usize] = element;
             *place += 1;
         }
-        std::mem::swap(&mut keyed, &mut sorted);
+        std::mem::swap(&mut from, &mut to);
     }
-    keyed.into_iter().map(|element| element as u32).collect()
+    // Three passes leave it in the other half.
+    to.copy_from_slice(from);
 }
 
 fn digit_of(key: u64, digit: usize) -> usize {
@@ -147,7 +185,7 @@ mod tests {
         let points: Vec<Vec3> = (0..10_000_u32)
             .map(|i| Vec3::new((i * 7919 % 97) as f32, (i * 104_729 % 89) as f32, (i % 3) as f32))
             .collect();
-        let order = order(points.iter().copied());
+        let order = order(points.len(), |i| points[i]);
         let mut seen = vec![false; points.len()];
         for &index in &order {
             assert!(!std::mem::replace(&mut seen[index as usize], true));
@@ -160,8 +198,12 @@ mod tests {
 
     #[test]
     fn points_without_an_extent_keep_their_order() {
-        assert!(order([].into_iter()).is_empty());
-        assert_eq!(order([Vec3::splat(3.0); 4].into_iter()), [0, 1, 2, 3]);
-        assert_eq!(order([Vec3::splat(1e30), Vec3::splat(-1e30)].into_iter()).len(), 2);
+        assert!(order(0, |_| Vec3::ZERO).is_empty());
+        assert_eq!(order(40, |_| Vec3::splat(3.0)), (0..40).collect::<Vec<_>>());
+        for size in [f32::MIN_POSITIVE, 1e-45, 1e30, f32::MAX] {
+            let mut order = order(40, |i| Vec3::splat(if i % 2 == 0 { size } else { -size }));
+            order.sort_unstable();
+            assert_eq!(order, (0..40).collect::<Vec<_>>());
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Lights without a range through the cuts of their tree, against brute force.
 
-use crate::cut_worlds::{KINDS, Kind, lights, matte, smooth, world};
+use crate::cut_worlds::{KINDS, Kind, glossy, lights, matte, smooth, world};
 use crate::support::{FIVE_MATERIALS, Rig};
 use amas::gpu::Use;
 use amas::shared::NO_CLUSTER;
@@ -243,6 +243,15 @@ fn hard_cases_stay_finite() {
         all.iter_mut().for_each(|light| (light.position, light.intensity) = (place, light.intensity * scale));
         all
     };
+    let in_plane = |size: f32| {
+        let mut all = lights(Kind::Uniform, 5000);
+        for (i, light) in all.iter_mut().enumerate() {
+            let height = if i % 3 == 0 { 1e-6 * light.position.y } else { 0.0 };
+            light.position = (light.position * Vec3::new(1.0, 0.0, 1.0)).with_y(height) * size;
+            light.intensity *= if i % 5 == 0 { 1e18 } else { 1.0 };
+        }
+        all
+    };
     let mut extreme = lights(Kind::Uniform, 600);
     extreme
         .iter_mut()
@@ -251,6 +260,9 @@ fn hard_cases_stay_finite() {
     let cases = [
         ("on the floor", at(Vec3::new(0.0, 0.0, 1.0), 1.0)),
         ("at the eye", at(Vec3::new(0.0, 1.5, 5.0), 1.0)),
+        ("in the floor's plane, near", in_plane(0.3)),
+        ("in the floor's plane, far", in_plane(1e4)),
+        ("in the floor's plane, at the end of the world", in_plane(1e12)),
         ("dark", at(Vec3::ONE, 0.0)),
         ("extreme", extreme),
         ("one light", lights(Kind::Uniform, 1)),
@@ -270,6 +282,34 @@ fn hard_cases_stay_finite() {
     assert_kept(&found, 0.02, "orthographic");
 }
 
+/// A swarm far away that smooth metal mirrors, seen light by light: more than an invocation's loops may hold on lavapipe. Every
+/// light is evaluated then.
+#[test]
+fn a_cut_that_asks_for_too_much_is_given_up() {
+    let mut all = lights(Kind::Uniform, 200_000);
+    for light in &mut all {
+        light.position = Vec3::new(0.0, 30.0, -90.0) + 0.1 * light.position;
+    }
+    let mut world = world(&glossy("metal", 0.001), all);
+    world.render.size = [32, 32];
+    let mut rig = cut(&world, 0.002);
+    let picture = rig.render();
+    assert_eq!((rig.frame.counters().cut_entries, rig.frame.light_error().unwrap()), (0, 0.0));
+    assert_eq!(picture, brute(&world));
+}
+
+/// More lights than a tile has pixels, all in one cluster.
+#[test]
+fn all_lights_within_one_cluster() {
+    let mut all = lights(Kind::Uniform, 60_000);
+    for light in &mut all {
+        light.position = Vec3::new(0.2, 0.05, 2.0) + 0.01 * light.position;
+    }
+    let world = world(&matte(0), all);
+    let found = figures(&world, &brute(&world), 0.002);
+    assert_kept(&found, 0.002, "one cluster");
+}
+
 /// An error of 0 or next to it evaluates every light, and so does a scene with few of them.
 #[test]
 fn no_error_is_no_cut() {
@@ -278,5 +318,38 @@ fn no_error_is_no_cut() {
         let mut rig = cut(&world, light_error);
         assert_eq!(rig.render(), brute(&world));
         assert_eq!((rig.frame.counters().cut_entries, rig.frame.light_error().unwrap()), (0, 0.0));
+    }
+}
+
+#[test]
+#[ignore = "explore"]
+fn explore() {
+    let env = |name: &str, default: &str| std::env::var(name).unwrap_or(default.into());
+    let kinds = env("KINDS", "0123456");
+    let seeds: u32 = env("SEEDS", "3").parse().unwrap();
+    let turns: usize = env("TURNS", "3").parse().unwrap();
+    let count: usize = env("COUNT", "30000").parse().unwrap();
+    for kind in KINDS.into_iter().filter(|kind| kinds.contains(&(*kind as u32).to_string())) {
+        for seed in 0..seeds {
+            let mat = env("MAT", "");
+            let text = if mat.is_empty() { matte(0) } else { let (a, b) = mat.split_once(':').unwrap(); crate::cut_worlds::glossy(a, b.parse().unwrap()) };
+            let base = world(&text, crate::cut_worlds::seeded(kind, count, seed));
+            let brute = brute(&base);
+            for (t, turn) in crate::cut_worlds::TURNS.into_iter().take(turns).enumerate() {
+                let world = crate::cut_worlds::turned(base.clone(), turn);
+                for e in LIGHT_ERRORS {
+                    let f = figures(&world, &brute, e);
+                    let a = f64::from(e);
+                    let flag = |bad: bool| if bad { "*" } else { " " };
+                    println!(
+                        "{kind:?} {seed} {t} {e}: mean {:.2}{} p99 {:.2}{} bias {:+.2}{} est {:.2}{}",
+                        f.mean / a, flag(f.mean > a),
+                        f.p99 / a, flag(f.p99 > 4.0 * a),
+                        f.bias / a, flag(f.bias.abs() > 0.25 * a),
+                        f.estimate / f.mean, flag(f.estimate > 2.0 * f.mean + 1e-5 || f.mean > 2.0 * f.estimate + 1e-5),
+                    );
+                }
+            }
+        }
     }
 }
