@@ -418,10 +418,8 @@ shared! {
             cut_share: float;
             /// Largest squared radius of a node, of the scale on which a lobe changes.
             cut_lobe2: float;
-            /// Largest error at a pixel's horizon, as a share of the pixel's light.
+            /// Largest error at a pixel's horizon, as a share of the pixel's irradiance.
             cut_horizon: float;
-            /// DARK
-            cut_dark: float;
         }
         /// Push constants of a draw.
         DrawConstants {
@@ -480,8 +478,8 @@ shared! {
             cut_power: float;
             /// Relative error that the cut is estimated to have.
             cut_error: float;
-            /// Nodes that the cut's walk met.
-            cut_visits: uint;
+            /// Largest error of a node in the cut: irradiance at normal incidence.
+            cut_limit: float;
             /// Its pixels.
             pixel_count: uint;
         }

@@ -22,13 +22,13 @@ layout(location = 0) out vec4 radiance;
 const float KINK = 0.06;
 // Below this share of the cluster's light at normal incidence a pixel counts as dark: what a cluster accepts may be wrong by
 // too much of it.
-const float DARK = 0.25;
+const float DARK = 0.1;
 // Least share that errors are measured by.
 const float DARKEST = 1e-3;
 
 // Steps of all loops of a pixel at most: a cut that asks for more is given up, and the frame evaluates every light
-// (Frame::give_up_cuts). lavapipe ends an invocation's loops after 65,535 of them all told, in silence: that too leaves one of
-// the loops short of its end.
+// (Frame::give_up_cuts). lavapipe ends the loops of eight invocations after 65,535 steps all told, in silence: that too leaves
+// one of the loops short of its end.
 const uint MAX_STEPS = 65000u;
 
 uint steps = 0u;
@@ -81,10 +81,10 @@ vec3 opened(Surface s, Lobe lobe, uint root, Limits limits) {
         if (fits) sum += reflected_node(s, index).radiance;
         uint light = leaf ? node.first : 0u;
         uint behind = leaf ? light + MOMENT_LEAF : 0u;
-        for (; light < behind && steps < MAX_STEPS; ++light, ++steps) sum += reflected(s, light);
+        steps += leaf ? MOMENT_LEAF + 1u : 1u;
+        for (; light < behind; ++light) sum += reflected(s, light);
         finished = finished && light >= behind;
         index = fits || leaf ? node.skip : index + 1u;
-        ++steps;
     }
     finished = finished && index >= end;
     return sum;
@@ -111,9 +111,7 @@ void add_far(inout Far far, Surface s, Lobe lobe, uint index, float limit) {
 
 vec3 near_leaf(Surface s, uint first) {
     vec3 sum = vec3(0.0);
-    uint i = 0u;
-    for (; i < MOMENT_LEAF && steps < MAX_STEPS; ++i, ++steps) sum += reflected(s, first + i);
-    finished = finished && i >= MOMENT_LEAF;
+    for (uint i = 0u; i < MOMENT_LEAF; ++i) sum += reflected(s, first + i);
     return sum;
 }
 
@@ -138,7 +136,7 @@ vec3 opened_nodes(Surface s, Lobe lobe, Cut cut, Limits limits, uint mode) {
     while (entry < end && steps < MAX_STEPS) {
         uint index = frame.moment_nodes;
         bool found = false;
-        while (!found && entry < end && steps < MAX_STEPS) {
+        while (!found && entry < end) {
             index = list_indices(cut.texel + entry / 4u)[entry & 3u];
             found = entry >= roots || reopened(s, lobe, index, limits, mode);
             ++entry;
@@ -151,41 +149,56 @@ vec3 opened_nodes(Surface s, Lobe lobe, Cut cut, Limits limits, uint mode) {
     return sum;
 }
 
-void main() {
-    Surface s = surface_here();
-    Lobe lobe = lobe_here(s);
-    Cut cut = cut_at(ivec2(gl_FragCoord.xy));
-    float limit = frame.cut_share * cut.power;
+Far far_nodes(Surface s, Lobe lobe, Cut cut) {
     Far far = Far(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
-    uint texel = cut.texel;
-    for (; texel < cut.roots && steps < MAX_STEPS; ++texel, ++steps) {
+    for (uint texel = cut.texel; texel < cut.roots; ++texel) {
         uvec4 four = list_indices(texel);
-        add_far(far, s, lobe, four.x, limit);
-        add_far(far, s, lobe, four.y, limit);
-        add_far(far, s, lobe, four.z, limit);
-        add_far(far, s, lobe, four.w, limit);
+        add_far(far, s, lobe, four.x, cut.limit);
+        add_far(far, s, lobe, four.y, cut.limit);
+        add_far(far, s, lobe, four.z, cut.limit);
+        add_far(far, s, lobe, four.w, cut.limit);
     }
-    finished = texel >= cut.roots;
+    return far;
+}
+
+vec3 near_leaves(Surface s, Cut cut) {
     vec3 sum = vec3(0.0);
-    texel = cut.leaves;
-    for (; texel < cut.end && steps < MAX_STEPS; ++texel, ++steps) {
+    for (uint texel = cut.leaves; texel < cut.end; ++texel) {
         uvec4 four = list_indices(texel);
         sum += near_leaf(s, four.x);
         sum += near_leaf(s, four.y);
         sum += near_leaf(s, four.z);
         sum += near_leaf(s, four.w);
     }
-    finished = finished && texel >= cut.end;
+    return sum;
+}
+
+// All that the cut holds, in two parts: what the cluster has decided, and what the pixel opens.
+vec3 of_cut(Surface s, Lobe lobe, Cut cut) {
+    Far far = far_nodes(s, lobe, cut);
+    vec3 near = near_leaves(s, cut);
     // The pixel's irradiance, as far as it is known: as bright as if all came from afar.
     float nodes = luminance(far.above + far.across);
-    float irradiance = far.irradiance * (1.0 + luminance(sum) / max(nodes, TINY));
-    float allowed = frame.cut_horizon * max(irradiance, DARKEST * cut.power);
-    bool dark = irradiance < frame.cut_dark * cut.power;
+    float irradiance = far.irradiance * (1.0 + luminance(near) / max(nodes, TINY));
+    float least = DARKEST * cut.power;
+    float allowed = frame.cut_horizon * max(irradiance, least);
+    bool dark = irradiance < DARK * cut.power;
     uint mode = dark ? REOPEN_ALL : far.error2 > sqr(allowed) ? REOPEN_HORIZON : REOPEN_LOBE;
-    float dim = dark ? max(2.0 * irradiance, DARKEST * cut.power) / max(cut.power, TINY) : 1.0;
-    Limits limits = Limits(limit * dim, allowed * inversesqrt(max(far.count, 1.0)));
-    sum += dark ? vec3(0.0) : far.above;
-    sum += mode == REOPEN_LOBE ? far.across : vec3(0.0);
-    sum += opened_nodes(s, lobe, cut, limits, mode);
-    radiance = vec4(min(sum, MAX_RADIANCE), finished ? 0.0 : 1.0);
+    // Twice, for a surface that faces its lights in the mean has half their light.
+    float dim = dark ? max(2.0 * irradiance, least) / max(cut.power, TINY) : 1.0;
+    Limits limits = Limits(cut.limit * dim, allowed * inversesqrt(max(far.count, 1.0)));
+    vec3 taken = dark ? vec3(0.0) : far.above;
+    taken += mode == REOPEN_LOBE ? far.across : vec3(0.0);
+    return taken + near + opened_nodes(s, lobe, cut, limits, mode);
+}
+
+void main() {
+    Surface s = surface_here();
+    Lobe lobe = lobe_here(s);
+    Cut cut = cut_at(ivec2(gl_FragCoord.xy));
+    steps = (cut.roots - cut.texel) + (1u + 4u * MOMENT_LEAF) * (cut.end - cut.leaves);
+    bool holds = steps < MAX_STEPS;
+    if (!holds) cut = Cut(0u, 0u, 0u, 0u, 0.0, 0.0);
+    vec3 sum = of_cut(s, lobe, cut);
+    radiance = vec4(min(sum, MAX_RADIANCE), holds && finished ? 0.0 : 1.0);
 }

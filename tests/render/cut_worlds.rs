@@ -128,10 +128,9 @@ pub(crate) fn smooth() -> String {
 }
 
 /// The proper rotations that turn axes into axes, as columns: the same world to a viewer, another order to the lights.
-pub(crate) const TURNS: [[Vec3; 3]; 4] = [
+pub(crate) const TURNS: [[Vec3; 3]; 3] = [
     [Vec3::X, Vec3::Y, Vec3::Z],
     [Vec3::Y, Vec3::Z, Vec3::X],
-    [Vec3::NEG_Z, Vec3::Y, Vec3::X],
     [Vec3::X, Vec3::NEG_Z, Vec3::Y],
 ];
 
