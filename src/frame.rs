@@ -66,9 +66,12 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, scene: &Arc<GpuScene>, settings: FrameSettings) -> Result<Self> {
+        Self::of(device, scene, settings, work(device, scene, &settings))
+    }
+
+    fn of(device: &Arc<Device>, scene: &Arc<GpuScene>, settings: FrameSettings, work: Work) -> Result<Self> {
         let inputs = pass_inputs(device, scene, &settings);
-        let work = work(device, scene, &settings);
-        let targets = Targets::new(device, settings.size, work.resolve, settings.encoding)?;
+        let targets = Targets::new(device, settings.size, [work.resolve, work.cut], settings.encoding)?;
         let tiles = tiles_of(settings.size);
         let pass_names = pass_names(work);
         let mask = if work.masks { work.area.div_ceil(shared::AREA_MASK_LIGHTS) } else { 0 };
@@ -140,7 +143,8 @@ impl Frame {
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn resize(&mut self, size: [u32; 2]) -> Result<()> {
         self.settings.size = size;
-        self.targets = Targets::new(&self.device, size, self.work.resolve, self.settings.encoding)?;
+        self.targets =
+            Targets::new(&self.device, size, [self.work.resolve, self.work.cut], self.settings.encoding)?;
         self.prepass.resize(&self.device, &self.targets)?;
         self.forward.resize(&self.device, &self.targets)?;
         let now = self.lists.capacity;
@@ -187,6 +191,10 @@ impl Frame {
         watch.add_gpu(self.timestamps.intervals()?);
         self.samples = index + 1;
         self.counters = self.readback.read()?[0];
+        if self.work.cut && self.counters.cut_given_up > 0 {
+            self.give_up_cuts()?;
+            return Ok(false);
+        }
         if self.cluster.is_some()
             && let Some(capacity) = self.lists.capacity.grown(&self.counters)
         {
@@ -194,6 +202,13 @@ impl Frame {
             return Ok(false);
         }
         Ok(true)
+    }
+
+    /// From now on evaluates every light without a range: some pixel's cut asked for more steps than a draw may have.
+    fn give_up_cuts(&mut self) -> Result<()> {
+        let work = Work { cut: false, unranged: true, ..self.work };
+        *self = Self::of(&self.device.clone(), &self.scene.clone(), self.settings, work)?;
+        Ok(())
     }
 
     /// Makes room, and the passes that fold lists where this frame is the first to need them.
@@ -277,6 +292,11 @@ impl Frame {
     fn record_forward(&self, cmd: &mut Commands, sample: Sample) {
         let stamp = 2 + u32::from(self.cluster.is_some()) + u32::from(self.resolve.is_some());
         self.forward.record(cmd, &self.view(), sample, (&self.timestamps, stamp));
+        if let Some(cluster) = self.cluster.as_ref().filter(|_| self.work.cut) {
+            cmd.transition(&self.targets.hdr, Use::TransferRead, Use::ComputeRead);
+            cluster.record_given_up(cmd, &self.view(), tiles_of(self.settings.size));
+            cmd.transition(&self.targets.hdr, Use::ComputeRead, Use::TransferRead);
+        }
         cmd.memory_barrier(Use::ComputeWrite, Use::TransferRead);
         cmd.copy_buffer(&self.lists.counters, &self.readback);
         cmd.memory_barrier(Use::TransferWrite, Use::HostRead);
@@ -329,6 +349,9 @@ impl Frame {
         set.image(shared::frame::FRAME_CLUSTER_IDS, &self.targets.cluster_ids, Use::FragmentRead);
         set.image(shared::frame::FRAME_HDR, &self.targets.hdr, Use::InputRead);
         set.image(shared::frame::FRAME_SURFACE, &self.targets.surface, Use::ComputeRead);
+        if self.work.cut {
+            set.image(shared::frame::FRAME_HDR_READ, &self.targets.hdr, Use::ComputeRead);
+        }
         self.lists.bind(set);
     }
 }

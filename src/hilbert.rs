@@ -1,4 +1,4 @@
-//! The order of points along a Hilbert curve through their bounds, in linear time.
+//! The order of points along a Hilbert curve through their bounds, in linear time unless they crowd into few places.
 //!
 //! 1. Keys have 12 bits an axis, of which the sort reads 32 in all. They are Skilling's (2004, «Programming the Hilbert
 //!    curve»), made three levels at a time by a table of the states that his algorithm can be in.
@@ -100,14 +100,43 @@ impl State {
     }
 }
 
-/// Indices of the points in the curve's order; among points that lie together, in their own.
+/// Indices of the points in the curve's order; points in one place keep theirs.
+///
+/// Points that fall into one cell are ordered along a curve through their own bounds: one point far from all others, which
+/// makes the cells large, does not leave the others in disorder.
 #[must_use]
 pub fn order(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u32> {
+    let elements = sorted(points.clone());
+    let mut order: Vec<u32> = elements.iter().map(|&element| element as u32).collect();
+    let mut places = Vec::new();
+    let mut begin = 0;
+    for cell in elements.chunk_by(|a, b| a >> 32 == b >> 32) {
+        let within = begin..begin + cell.len();
+        begin = within.end;
+        if cell.len() <= FEW || cell.len() == elements.len() {
+            continue;
+        }
+        if places.is_empty() {
+            places.extend(points.clone());
+        }
+        let own: Vec<Vec3> = order[within.clone()].iter().map(|&index| places[index as usize]).collect();
+        let along: Vec<u32> = self::order(own.iter().copied())
+            .into_iter()
+            .map(|at| order[within.start + at as usize])
+            .collect();
+        order[within].copy_from_slice(&along);
+    }
+    order
+}
+
+/// Keys and indices of the points, sorted by the keys but for [`FEW`] together.
+fn sorted(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u64> {
     let (lower, upper) = points
         .clone()
         .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), p| (lower.min(p), upper.max(p)));
-    let extent = (upper - lower).max_element().max(f32::MIN_POSITIVE);
-    let scale = ((1 << BITS) - 1) as f32 / extent;
+    // Halves, so that no difference of numbers is infinite.
+    let extent = (0.5 * upper - 0.5 * lower).max_element();
+    let scale = (0.5 * ((1 << BITS) - 1) as f32 / extent).min(f32::MAX);
     let steps = &**STEPS;
     let mut elements: Vec<u64> = Vec::with_capacity(points.len());
     elements
@@ -118,7 +147,7 @@ pub fn order(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u32> {
     for run in runs(&ends) {
         refine(&mut other[run.clone()], &mut elements[run], KEY_BITS - FIRST_DIGIT);
     }
-    elements.into_iter().map(|element| element as u32).collect()
+    elements
 }
 
 /// Sorts `from` into `into`, by the last `bits` bits of the keys; the others are equal.
@@ -259,7 +288,11 @@ mod tests {
     #[test]
     fn points_without_an_extent_keep_their_order() {
         assert!(order([].into_iter()).is_empty());
-        assert_eq!(order([Vec3::splat(3.0); 4].into_iter()), [0, 1, 2, 3]);
-        assert_eq!(order([Vec3::splat(1e30), Vec3::splat(-1e30)].into_iter()).len(), 2);
+        assert_eq!(order([Vec3::splat(3.0); 40].into_iter()), (0..40).collect::<Vec<_>>());
+        for size in [f32::MIN_POSITIVE, 1e-45, 1e30, f32::MAX] {
+            let mut order = order((0..40).map(|i| Vec3::splat(if i % 2 == 0 { size } else { -size })));
+            order.sort_unstable();
+            assert_eq!(order, (0..40).collect::<Vec<_>>());
+        }
     }
 }

@@ -203,6 +203,26 @@ mod tests {
         }
     }
 
+    /// Surface of the spheres of all nodes that do not hold a light beyond 100 m.
+    fn surface(tree: &LightTree) -> f64 {
+        let (_, nodes) = tree.moments.split_last().unwrap();
+        nodes.iter().filter(|node| node.radius < 100.0).map(|node| f64::from(node.radius).powi(2)).sum()
+    }
+
+    #[test]
+    fn lights_far_from_all_others_leave_these_in_order() {
+        let mut all = lights(30_000);
+        all.iter_mut().for_each(|light| light.range = None);
+        let alone = surface(&LightTree::new(&all));
+        for far in [Vec3::splat(1e3), Vec3::X * 1e6, Vec3::NEG_Y * 1e6, Vec3::new(-1e9, 1e12, 3e5)] {
+            let mut with = all.clone();
+            with[17].position = far;
+            let tree = LightTree::new(&with);
+            let found = surface(&tree);
+            assert!(found < 1.2 * alone && found > alone / 1.2, "{far}: {found}, {alone} without");
+        }
+    }
+
     #[test]
     fn unranged_lights_follow_the_ranged_ones() {
         let mut all = lights(10);

@@ -5,7 +5,7 @@ mod common;
 
 use amas::reference::lights::{Bounds, falloff, reaching, reaching_point};
 use amas::reference::rays::camera_ray;
-use amas::reference::{Integrator, Options, render};
+use amas::reference::{Options, render};
 use amas::scene::{AreaLight, AreaShape, PointLight, Scene};
 use common::square::{center, options, scene};
 use glam::{DVec3, Vec3, vec3};

@@ -1,14 +1,15 @@
 //! What can be read from a frame once it is rendered.
 
-use super::{Frame, FrameSettings, encoded, tiles, tiles_of};
+use super::{Frame, FrameSettings, encoded, pass_inputs, tiles, tiles_of};
 use crate::error::Result;
 use crate::gpu::{Image, Use};
 use crate::image::HdrImage;
 use crate::passes::aov::Quantity;
 use crate::passes::cluster::ClusterTargets;
+use crate::passes::cut_check::CutCheck;
 use crate::passes::floors::{FloorPass, Floors};
 use crate::passes::pairs::{PairCount, PairPass};
-use crate::shared::{Cluster, Counters};
+use crate::shared::Counters;
 use crate::targets::Targets;
 use std::sync::Arc;
 
@@ -97,8 +98,9 @@ impl Frame {
         if self.cluster.is_some() { self.counters } else { Counters::default() }
     }
 
-    /// Estimated mean relative error of the picture last rendered, from folded lists and from the cuts of the tree over lights
-    /// without a range: over the pixels with a surface. 0 where every light that reaches a pixel is evaluated.
+    /// Estimated mean relative error of the picture last rendered, over the pixels with a surface: of folded lists, as the
+    /// clusters note it; for what nodes of the tree over lights without a range stood for, measured against every light at
+    /// some of the pixels, or all of a small picture. 0 where every light that reaches a pixel is evaluated.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
@@ -106,12 +108,31 @@ impl Frame {
         if !self.work.cut && !self.work.folded {
             return Ok(0.0);
         }
+        Ok(self.fold_error()? + self.cut_error()?)
+    }
+
+    fn fold_error(&self) -> Result<f64> {
+        if !self.work.folded {
+            return Ok(0.0);
+        }
         let clusters = self.lists.clusters.fetch(Use::ComputeWrite)?;
         let occupied = &clusters[..clusters.len().min(self.counters.clusters as usize)];
         let pixels: f64 = occupied.iter().map(|cluster| f64::from(cluster.pixel_count)).sum();
-        let error = |cluster: &Cluster| f64::from(cluster.error) + f64::from(cluster.cut_error);
-        let errors = occupied.iter().map(|cluster| f64::from(cluster.pixel_count) * error(cluster));
+        let errors = occupied.iter().map(|cluster| f64::from(cluster.pixel_count) * f64::from(cluster.error));
         Ok(errors.sum::<f64>() / pixels.max(1.0))
+    }
+
+    fn cut_error(&self) -> Result<f64> {
+        if !self.work.cut {
+            return Ok(0.0);
+        }
+        let inputs = pass_inputs(&self.device, &self.scene, &self.settings);
+        let check = CutCheck::new(&inputs, &self.targets)?;
+        self.device.run("cut check", |cmd| {
+            check.record(cmd, &self.view());
+            Ok(())
+        })?;
+        check.relative_error(&self.hdr()?.pixels)
     }
 
     /// The cluster pass's results, for tests of the lists.

@@ -141,6 +141,7 @@ struct Cuts {
     count: ComputePipeline,
     scan: ComputePipeline,
     write: ComputePipeline,
+    given_up: ComputePipeline,
 }
 
 impl ClusterPass {
@@ -171,6 +172,7 @@ impl ClusterPass {
                 count: step(shaders::CLUSTER_CUT_COUNT_COMP)?,
                 scan: step(shaders::CLUSTER_SCAN_CUTS_COMP)?,
                 write: step(shaders::CLUSTER_CUT_WRITE_COMP)?,
+                given_up: step(shaders::CLUSTER_GIVEN_UP_COMP)?,
             })
         };
         let notes = lanes
@@ -187,6 +189,14 @@ impl ClusterPass {
             area: masks.then(|| step(shaders::CLUSTER_AREA_COMP)).transpose()?,
             tiles: inputs.lanes / TILE_SIZE,
         })
+    }
+
+    /// Behind the picture, its colour in use [`Use::ComputeRead`]: counts the pixels whose cuts were given up.
+    pub fn record_given_up(&self, cmd: &mut Commands, view: &View<'_>, [x, y]: [u32; 2]) {
+        let Some(cuts) = &self.cuts else { return };
+        cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
+        cmd.bind_compute(&cuts.given_up, &[view.frame, view.scene.set.get(0)]);
+        cmd.dispatch([x, y, 1]);
     }
 
     /// Records the steps, with what each hands to the next.

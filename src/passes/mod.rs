@@ -5,6 +5,7 @@
 
 pub mod aov;
 pub mod cluster;
+pub mod cut_check;
 #[cfg(feature = "viewer")]
 pub mod develop;
 pub mod direct;

@@ -4,7 +4,7 @@ use crate::support::{Rig, scene};
 use amas::gpu::Use;
 use amas::passes::aov::Quantity;
 use amas::reference::lights::reaching_point;
-use amas::shared::{Cluster, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, NO_CLUSTER, PARENT_ROOM, SIBLINGS};
+use amas::shared::{Cluster, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, NO_CLUSTER};
 use glam::Vec3;
 
 /// Rooms of boxes and spheres; `camera` is the camera's text.
