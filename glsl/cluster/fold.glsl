@@ -7,9 +7,8 @@ const uint NODE_WORDS = FOLD_NODES * SUMS * FOLD_LANES;
 layout(constant_id = 48) const bool GLOSSY = true;
 
 // Of the light whose directions a node does not tell apart, what is wrong in a picture. A flat matte surface sees the vectors'
-// sum, and hardly any of it; five materials by the caps and lights of tests/render/folds.rs, where 0 would make the estimate a
-// quarter of the error, and 1 half as much again.
-float spread_share() { return GLOSSY ? 0.5 : 0.05; }
+// sum, and hardly any of it. On five materials (tests/render/folds.rs) it makes the estimate 0.64 to 1.42 of the error.
+float spread_share() { return GLOSSY ? 1.0 : 0.05; }
 
 const vec3 MEAN_OF_RGB = vec3(1.0 / 3.0);
 
