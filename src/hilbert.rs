@@ -3,9 +3,9 @@
 //! 1. Keys have 12 bits an axis, of which the sort reads 32 in all. They are Skilling's (2004, «Programming the Hilbert
 //!    curve»), made three levels at a time by a table of the states that his algorithm can be in.
 //! 2. A stable partition by the first 12 bits leaves runs that a core's own cache holds; each is partitioned by as many
-//!    more bits as it has points for, and again where points crowd, until [`FEW`] are left together.
+//!    more bits as it has points for, and again where points crowd, until [`FEW`] are left, which are compared.
 //!
-//! CPU ms of 2²⁰ points strewn evenly, on one thread: bounds 3, keys 8, sort 8; a radix sort of all 30 bits and tables of
+//! CPU ms of 2²⁰ points strewn evenly, on one thread: bounds 3, keys 8, sort 10; a radix sort of all 30 bits and tables of
 //! two levels took 51. Morton's keys cost as much within 2 %, and boxes of 32 points in their order have 2.7 times the
 //! volume (1.6 times with ranges as in `scenes/million.toml`).
 
@@ -21,7 +21,7 @@ const KEY_BITS: u32 = 32;
 const FIRST_DIGIT: u32 = 12;
 /// Bits of the others at most: their counters stay in the first cache.
 const DIGIT: u32 = 10;
-/// As many points as lie together are not sorted any further: a leaf of lights has four times as many.
+/// As many elements are sorted by comparing them.
 const FEW: usize = 8;
 /// Orientations of the curve.
 const STATES: usize = 24;
@@ -136,7 +136,8 @@ fn sorted(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u64> {
         .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), p| (lower.min(p), upper.max(p)));
     // Halves, so that no difference of numbers is infinite.
     let extent = (0.5 * upper - 0.5 * lower).max_element();
-    let scale = (0.5 * ((1 << BITS) - 1) as f32 / extent).min(f32::MAX);
+    // The far corner still falls into a cell.
+    let scale = (0.5 * ((1 << BITS) - 4) as f32 / extent).min(f32::MAX);
     let steps = &**STEPS;
     let mut elements: Vec<u64> = Vec::with_capacity(points.len());
     elements
@@ -154,6 +155,7 @@ fn sorted(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u64> {
 fn refine(from: &mut [u64], into: &mut [u64], bits: u32) {
     if from.len() <= FEW || bits == 0 {
         into.copy_from_slice(from);
+        into.sort_unstable();
         return;
     }
     // Two to four points a run where they are strewn evenly.
@@ -161,9 +163,13 @@ fn refine(from: &mut [u64], into: &mut [u64], bits: u32) {
     let mut ends = [0; 1 << DIGIT];
     let ends = &mut ends[..1 << digit];
     partition(from, into, bits - digit, ends);
-    for run in runs(ends).filter(|run| run.len() > FEW) {
-        refine(&mut into[run.clone()], &mut from[run.clone()], bits - digit);
-        into[run.clone()].copy_from_slice(&from[run]);
+    for run in runs(ends).filter(|run| run.len() > 1) {
+        if run.len() <= FEW {
+            into[run].sort_unstable();
+        } else {
+            refine(&mut into[run.clone()], &mut from[run.clone()], bits - digit);
+            into[run.clone()].copy_from_slice(&from[run]);
+        }
     }
 }
 
@@ -195,7 +201,7 @@ fn runs(ends: &[u32]) -> impl Iterator<Item = Range<usize>> {
 /// The first bits of the place along the curve of a point of [0, 2^BITS − 1]³.
 fn key(steps: &Steps, p: Vec3) -> u32 {
     // Added to 2²³ a float's last bits are the integer: a conversion with its checks costs three times as much.
-    let [x, y, z] = p.to_array().map(|v| (v + 8_388_608.0).to_bits());
+    let [x, y, z] = p.to_array().map(|v| ((v - 0.5).max(0.0) + 8_388_608.0).to_bits());
     let mut state = 0;
     let mut key = 0_u64;
     for level in (0..BITS).step_by(3).rev() {

@@ -55,8 +55,8 @@ pub(super) fn summary(figures: &Figures) -> String {
 
 /// What the sweep of the number of lights is for.
 fn growth_sentence(figures: &Figures) -> Option<String> {
-    let points = figures.points.iter().filter(|p| p.sweep == GROWTH);
-    let (least, most) = (points.clone().next()?, points.last()?);
+    let mut points = figures.points.iter().filter(|p| p.sweep == GROWTH);
+    let (least, most) = (points.next()?, points.next_back()?);
     Some(format!(
         "From {} to {} lights, with {:.1} and {:.1} of them at a pixel, a frame takes {:.2} times as long; order and tree of \
          the most take {:.1} CPU ms, once where the lights stand.\n",
