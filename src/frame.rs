@@ -59,7 +59,7 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, scene: &Arc<GpuScene>, settings: FrameSettings) -> Result<Self> {
-        let inputs = PassInputs { device, scene, perspective: settings.perspective };
+        let inputs = pass_inputs(device, scene, &settings);
         let work = work(device, scene, &settings);
         let targets = Targets::new(device, settings.size, work.resolve)?;
         let tiles = tiles_of(settings.size);
@@ -144,8 +144,7 @@ impl Frame {
 
     /// Makes room, and the passes that fold lists where this frame is the first to need them.
     fn grow(&mut self, capacity: Capacity) -> Result<()> {
-        let inputs =
-            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
+        let inputs = pass_inputs(&self.device, &self.scene, &self.settings);
         if capacity.folds && !self.lists.capacity.folds {
             self.cluster = Some(ClusterPass::new(&inputs, self.work, true)?);
         }
@@ -278,6 +277,12 @@ impl Frame {
         set.image(shared::frame::FRAME_SURFACE, &self.targets.surface, Use::ComputeRead);
         self.lists.bind(set);
     }
+}
+
+fn pass_inputs<'a>(device: &'a Arc<Device>, scene: &'a GpuScene, settings: &FrameSettings) -> PassInputs<'a> {
+    // A vector of lavapipe, or a warp.
+    let lanes = settings.lanes.unwrap_or(if device.is_cpu() { 8 } else { 32 });
+    PassInputs { device, scene, perspective: settings.perspective, lanes }
 }
 
 fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {

@@ -1,9 +1,10 @@
 //! Point lights in the order the device wants them, and the tree over that order.
 //!
 //! 1. Lights with a range come first, then those without; each kind along a Hilbert curve through its bounds.
-//! 2. Every 32 lights with a range make a leaf, every 64 leaves a top node; a node's box holds its lights' spheres.
-//! 3. Top nodes come first, then 64 leaves for each: a vector of invocations tests as many at once, so neither stack nor
-//!    pointers. Two levels suffice: a million lights have 512 top nodes, 3 µs a parent on lavapipe.
+//! 2. Every 32 lights with a range make a leaf, every 64 leaves a top node, every 64 of these a crown; a node's box holds
+//!    its lights' spheres.
+//! 3. Crowns come first, then the top nodes, then 64 leaves for each of these: a workgroup tests those below a node at
+//!    once, so neither stack nor pointers. Three levels suffice: a million lights have 8 crowns.
 //! 4. Many lights without a range get a tree of their own, by [`moments`].
 //! 5. Lights that move keep their order for a while, by [`moving`].
 
@@ -29,7 +30,7 @@ pub struct LightTree {
     pub lights: Vec<PointLight>,
     /// How many have a range.
     pub ranged: usize,
-    /// Nodes over the lights with a range: the top ones, then `TOP_LEAVES` for each.
+    /// Nodes over the lights with a range: the crowns, the top nodes, then `TOP_LEAVES` for each of these.
     pub nodes: Vec<LightNode>,
     /// Nodes over the lights without a range, in depth-first order, with a null node behind them; empty where the lights
     /// are few.
@@ -50,7 +51,7 @@ impl LightTree {
     /// Top nodes.
     #[must_use]
     pub fn top_nodes(&self) -> u32 {
-        (self.nodes.len() / (1 + FAN)) as u32
+        self.ranged.div_ceil(LEAF * FAN) as u32
     }
 }
 
@@ -86,25 +87,43 @@ pub fn moments_of(lights: &[PointLight], first: usize) -> Vec<MomentNode> {
 
 fn build(lights: &[PointLight]) -> Vec<LightNode> {
     let leaf = |(number, part): (usize, &[PointLight])| {
-        let spheres = part.iter().map(|light| (light.position, light.range.unwrap_or(f32::MAX)));
-        leaf(number, part.len(), spheres)
+        let mut reach = Reach::default();
+        part.iter().for_each(|light| reach.add(light.position, light.range.unwrap_or(f32::MAX)));
+        reach.leaf(number, part.len())
     };
     with_tops(lights.par_chunks(LEAF).enumerate().map(leaf).collect(), lights.len())
 }
 
-/// The leaf of that number over so many lights, of which it needs positions and ranges.
-fn leaf(number: usize, count: usize, spheres: impl Iterator<Item = (Vec3, f32)>) -> LightNode {
-    let (lower, upper) =
-        spheres.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), (position, range)| {
-            // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
-            let reach = range * 1.0001 + 1e-6 * position.abs().element_sum();
-            (lower.min(position - reach), upper.max(position + reach))
-        });
-    LightNode {
-        lower: lower.to_array(),
-        first: (number * LEAF) as u32,
-        upper: upper.to_array(),
-        count: count as u32,
+/// The box of the spheres of lights.
+#[derive(Clone, Copy)]
+struct Reach {
+    lower: Vec3,
+    upper: Vec3,
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self { lower: Vec3::INFINITY, upper: Vec3::NEG_INFINITY }
+    }
+}
+
+impl Reach {
+    #[inline]
+    fn add(&mut self, position: Vec3, range: f32) {
+        // Wider than the sphere by more than the test of a light against a cluster allows for rounding.
+        let reach = range * 1.0001 + 1e-6 * position.abs().element_sum();
+        self.lower = self.lower.min(position - reach);
+        self.upper = self.upper.max(position + reach);
+    }
+
+    /// The leaf of that number, over so many lights.
+    fn leaf(self, number: usize, count: usize) -> LightNode {
+        LightNode {
+            lower: self.lower.to_array(),
+            first: (number * LEAF) as u32,
+            upper: self.upper.to_array(),
+            count: count as u32,
+        }
     }
 }
 
@@ -115,17 +134,17 @@ pub fn place_texel(position: Vec3, range: f32) -> [f32; 4] {
     position.extend((1.0 / (range * range)).min(f32::MAX)).to_array()
 }
 
-/// Puts the top nodes before the leaves of so many lights.
-fn with_tops(leaves: Vec<LightNode>, lights: usize) -> Vec<LightNode> {
-    let top = |below: &[LightNode]| {
-        below[1..].iter().fold(below[0], |top, leaf| LightNode {
-            lower: Vec3::from(top.lower).min(leaf.lower.into()).to_array(),
-            upper: Vec3::from(top.upper).max(leaf.upper.into()).to_array(),
-            count: top.count + leaf.count,
-            ..top
+/// Puts crowns and top nodes before the leaves of so many lights.
+fn with_tops(mut leaves: Vec<LightNode>, lights: usize) -> Vec<LightNode> {
+    let over = |below: &[LightNode]| {
+        below[1..].iter().fold(below[0], |over, node| LightNode {
+            lower: Vec3::from(over.lower).min(node.lower.into()).to_array(),
+            upper: Vec3::from(over.upper).max(node.upper.into()).to_array(),
+            count: over.count + node.count,
+            ..over
         })
     };
-    let mut nodes: Vec<LightNode> = leaves.chunks(FAN).map(top).collect();
+    let tops: Vec<LightNode> = leaves.chunks(FAN).map(over).collect();
     // No box meets the last top node's missing leaves.
     let nowhere = LightNode {
         lower: [f32::INFINITY; 3],
@@ -133,9 +152,10 @@ fn with_tops(leaves: Vec<LightNode>, lights: usize) -> Vec<LightNode> {
         upper: [f32::NEG_INFINITY; 3],
         count: 0,
     };
-    let all = nodes.len() * (1 + FAN);
+    leaves.resize(tops.len() * FAN, nowhere);
+    let mut nodes: Vec<LightNode> = tops.chunks(FAN).map(over).collect();
+    nodes.extend(tops);
     nodes.extend(leaves);
-    nodes.resize(all, nowhere);
     nodes
 }
 
@@ -160,11 +180,12 @@ mod tests {
 
     #[test]
     fn every_light_is_in_one_leaf_and_inside_every_box_above_it() {
-        for count in [1, 15, 16, 17, 128, 129, 5000] {
+        for count in [1, 31, 32, 33, 2048, 2049, 150_000] {
             let tree = LightTree::new(&lights(count));
             let mut seen = vec![0; count];
             let tops = tree.top_nodes() as usize;
-            let (top_nodes, leaves) = tree.nodes.split_at(tops);
+            let (crowns, below) = tree.nodes.split_at(tops.div_ceil(FAN));
+            let (top_nodes, leaves) = below.split_at(tops);
             assert_eq!(leaves.len(), tops * FAN);
             for (i, leaf) in leaves.iter().enumerate() {
                 let lights = leaf.first as usize..(leaf.first + leaf.count) as usize;
@@ -172,7 +193,7 @@ mod tests {
                 for (light, seen) in tree.lights[lights.clone()].iter().zip(&mut seen[lights]) {
                     *seen += 1;
                     let range = light.range.unwrap();
-                    for node in [leaf, &top_nodes[i / FAN]] {
+                    for node in [leaf, &top_nodes[i / FAN], &crowns[i / FAN / FAN]] {
                         assert!(light.position.cmpge(Vec3::from(node.lower) + range).all());
                         assert!(light.position.cmple(Vec3::from(node.upper) - range).all());
                     }

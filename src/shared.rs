@@ -15,7 +15,7 @@ pub use declare::*;
 
 shared! {
     constants {
-        /// Pixels along a tile's side; a tile is one workgroup of the cluster pass.
+        /// Pixels along a tile's side; a column is one invocation of the cluster pass.
         TILE_SIZE = 8;
         /// Pixels of a tile.
         TILE_PIXELS = 64;
@@ -31,8 +31,8 @@ shared! {
         BAND_SLICES_LOG2 = 3;
         /// Clusters that one invocation tests a light against; all have one parent.
         SIBLINGS = 4;
-        /// Invocations of the workgroup that tests a parent: on lavapipe a vector, so that barriers cost nothing.
-        GATHER_LANES = 8;
+        /// Tiles that a workgroup of its steps by tile takes at most: their sums fill 14 of 16 KiB of shared memory.
+        MOST_TILES = 4;
         /// Entries that a parent's list has room for.
         PARENT_ROOM = 2048;
         /// Bits of a parent's count of entries; what they are lies above.
@@ -255,7 +255,7 @@ shared! {
         FLOOR_FETCH = 2;
         /// Lights fetched and reflected.
         FLOOR_BOTH = 3;
-        /// Invocations of a workgroup of the resolve.
+        /// Invocations of a small workgroup: on lavapipe a vector, so that barriers cost nothing; elsewhere a warp.
         SPEC_LANES = 46;
         /// The variant that the pipeline resolves.
         SPEC_RESOLVED = 44;
@@ -498,7 +498,7 @@ shared! {
             groups_y: uint;
             /// 1.
             groups_z: uint;
-            /// Workgroups over parents, one each.
+            /// Workgroups over parents to be gathered, one each.
             parents_x: uint;
             /// Rows of them.
             parents_y: uint;
@@ -534,6 +534,8 @@ shared! {
             cut_entries: uint;
             /// Longest cut.
             cut_longest: uint;
+            /// The first parent of those to be gathered.
+            first_parent: uint;
         }
         /// A node of the light tree: a box that holds its lights' spheres.
         LightNode {

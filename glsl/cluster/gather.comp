@@ -1,5 +1,6 @@
-// Step 6: the lights that reach each parent. One workgroup a parent: its invocations test top nodes, then the leaves of those
-// that it meets, then lights, a leaf each. Invocation after invocation, what they list is in Hilbert order.
+// Step 6: the lights that reach each parent. One workgroup a parent: its invocations walk down the tree together, testing as
+// many nodes of a level, then lights, a leaf each. Invocation after invocation, what they list is in Hilbert order, however
+// many they are.
 //
 // lavapipe ends an invocation's loops after 65,535 iterations in all: a million lights have 32,768 leaves, eight to an
 // iteration, and a leaf's lights are unrolled.
@@ -14,23 +15,28 @@
 #include "lib/parent.glsl"
 #include "cluster/reach.glsl"
 
-#define LANES GATHER_LANES
+// Invocations: 8 to MOST_LANES, so that the nodes below one are shared out evenly.
+layout(local_size_x_id = 46) in;
+#define LANES gl_WorkGroupSize.x
+#define MOST_LANES TOP_LEAVES
 #include "cluster/lane_sums.glsl"
 
-layout(local_size_x = GATHER_LANES) in;
 layout(set = SET_frame, binding = FRAME_CLUSTERS, std430) buffer ClusterBlock { Cluster clusters[]; };
 layout(set = SET_frame, binding = FRAME_COUNTERS, std430) readonly buffer CounterBlock { Counters counters; };
 layout(set = SET_frame, binding = FRAME_LISTS_OUT, rgba32ui) writeonly uniform uimage2DArray light_lists;
 
-// Leaves of a top node that one invocation tests.
-const uint LANE_LEAVES = TOP_LEAVES / GATHER_LANES;
 // Leaves that a list holds: with as many as lights, shared memory would be more than the 16 KiB of every device.
 const uint LEAF_ROOM = PARENT_ROOM / 2u;
 
-shared vec3 lowers[GATHER_LANES];
-shared vec3 uppers[GATHER_LANES];
-shared uint tops[32u * GATHER_LANES];
-shared uint met_leaves[TOP_LEAVES];
+// Levels of the tree: what it says of them is in src/light_tree.rs.
+const uint CROWNS = 0u;
+const uint TOPS = 1u;
+const uint LEAVES = 2u;
+
+shared vec3 lowers[MOST_LANES];
+shared vec3 uppers[MOST_LANES];
+// Of each level, below one node: those that the box meets.
+shared uint met[3u * TOP_LEAVES];
 shared uint lights[PARENT_ROOM];
 shared uint leaves[LEAF_ROOM];
 
@@ -42,37 +48,47 @@ uvec2 found = uvec2(0u);  // lights, leaves
 void bound(uint first, uint count) {
     uint lane = gl_LocalInvocationIndex;
     uint end = min(first + count, frame.cluster_capacity);
-    for (uint id = first + lane; id < end; id += GATHER_LANES) {
+    for (uint id = first + lane; id < end; id += LANES) {
         lower = min(lower, clusters[id].lower);
         upper = max(upper, clusters[id].upper);
     }
     lowers[lane] = lower;
     uppers[lane] = upper;
     barrier();
-    [[unroll]] for (uint i = 0u; i < GATHER_LANES; ++i) {
+    [[unroll]] for (uint i = 0u; i < LANES; ++i) {
         lower = min(lower, lowers[i]);
         upper = max(upper, uppers[i]);
     }
 }
 
-// Bits of the `count` nodes from `first` on that the box meets.
-uint met_nodes(uint first, uint count) {
-    uint met = 0u;
-    for (uint i = 0u; i < count; ++i) met |= uint(overlap(node_at(first + i), lower, upper)) << i;
-    return met;
-}
-
-// Lists the leaves of a top node that the box meets; returns how many.
-uint list_leaves(uint top) {
-    uint begin = top * TOP_LEAVES + gl_LocalInvocationIndex * LANE_LEAVES;
-    uint met = 0u;
-    [[unroll]] for (uint i = 0u; i < LANE_LEAVES; ++i) {
-        met |= uint(overlap(node_at(frame.top_nodes + begin + i), lower, upper)) << i;
-    }
-    uvec4 sum = lane_sums(uvec2(bitCount(met), 0u));
-    for (uint at = sum.x; met != 0u; met &= met - 1u) met_leaves[at++] = begin + uint(findLSB(met));
+// Notes the nodes of a level whose bits are set, from `begin` on, for all invocations; returns how many they have.
+uint note(uint level, uint begin, uint bits) {
+    uvec4 sum = lane_sums(uvec2(bitCount(bits), 0u));
+    for (uint at = level * TOP_LEAVES + sum.x; bits != 0u; bits &= bits - 1u) met[at++] = begin + uint(findLSB(bits));
     barrier();
     return sum.z;
+}
+
+// Notes which nodes of a level, TOP_LEAVES of them at most from number `first` on, the box meets.
+uint note_met(uint level, uint level_at, uint first, uint end) {
+    uint each = TOP_LEAVES / LANES;
+    uint begin = first + gl_LocalInvocationIndex * each;
+    uint bits = 0u;
+    // Not unrolled: most scenes have few of them.
+    for (uint i = 0u; i < each && begin + i < end; ++i) {
+        bits |= uint(overlap(node_at(level_at + begin + i), lower, upper)) << i;
+    }
+    return note(level, begin, bits);
+}
+
+// The same of all leaves below a node.
+uint note_leaves(uint leaves_at, uint first) {
+    uint begin = first + gl_LocalInvocationIndex * (TOP_LEAVES / LANES);
+    uint bits = 0u;
+    [[unroll]] for (uint i = 0u; i < TOP_LEAVES / LANES; ++i) {
+        bits |= uint(overlap(node_at(leaves_at + begin + i), lower, upper)) << i;
+    }
+    return note(LEAVES, begin, bits);
 }
 
 void append(uint leaf, uint hits) {
@@ -85,24 +101,30 @@ void append(uint leaf, uint hits) {
     found += sum.zw;
 }
 
-void visit_top(uint top) {
-    uint count = list_leaves(top);
-    for (uint first = 0u; first < count; first += GATHER_LANES) {
+// Whether what is found needs no more: a parent that will be split needs no list, and with too many leaves none is made.
+bool full() { return found.x > PARENT_ROOM && (counters.first_parent == 0u || found.y > LEAF_ROOM); }
+
+void visit_leaves(uint count) {
+    for (uint first = 0u; first < count && !full(); first += LANES) {
         uint at = first + gl_LocalInvocationIndex;
-        uint leaf = at < count ? met_leaves[at] : 0u;
+        uint leaf = at < count ? met[LEAVES * TOP_LEAVES + at] : 0u;
         uint light = leaf * LEAF_LIGHTS;
         append(leaf, leaf_hits(light, at < count ? frame.direct_begin - light : 0u, lower, upper));
     }
 }
 
-// Every invocation tests 32 top nodes after one another, which takes no barrier.
-void visit_tops(uint first) {
-    uint begin = first + 32u * gl_LocalInvocationIndex;
-    uint met = met_nodes(begin, min(32u, frame.top_nodes - min(begin, frame.top_nodes)));
-    uvec4 sum = lane_sums(uvec2(bitCount(met), 0u));
-    for (uint at = sum.x; met != 0u; met &= met - 1u) tops[at++] = begin + uint(findLSB(met));
-    barrier();
-    for (uint i = 0u; i < sum.z; ++i) visit_top(tops[i]);
+void walk() {
+    uint tops = frame.top_nodes;
+    uint crowns = (tops + TOP_LEAVES - 1u) / TOP_LEAVES;
+    for (uint first = 0u; first < crowns && !full(); first += TOP_LEAVES) {
+        uint met_crowns = note_met(CROWNS, 0u, first, crowns);
+        for (uint i = 0u; i < met_crowns && !full(); ++i) {
+            uint met_tops = note_met(TOPS, crowns, met[CROWNS * TOP_LEAVES + i] * TOP_LEAVES, tops);
+            for (uint j = 0u; j < met_tops && !full(); ++j) {
+                visit_leaves(note_leaves(crowns + tops, met[TOPS * TOP_LEAVES + j] * TOP_LEAVES));
+            }
+        }
+    }
 }
 
 uvec4 four_lights(uint at, uint count) {
@@ -118,11 +140,11 @@ void write_list(uint texel) {
     if (found.x <= PARENT_ROOM) {
         // All of the last group's: what lies past the end names the null light.
         uint end = (found.x + LEAF_LIGHTS - 1u) / LEAF_LIGHTS * LEAF_LIGHTS;
-        for (uint at = 4u * lane; at < end; at += 4u * GATHER_LANES) {
+        for (uint at = 4u * lane; at < end; at += 4u * LANES) {
             imageStore(light_lists, list_texel(texel + at / 4u), four_lights(at, found.x));
         }
     } else if (found.y <= LEAF_ROOM) {
-        for (uint at = 4u * lane; at < found.y; at += 4u * GATHER_LANES) {
+        for (uint at = 4u * lane; at < found.y; at += 4u * LANES) {
             uvec4 four = uvec4(leaves[at], leaves[at + 1u], leaves[at + 2u], leaves[at + 3u]);
             imageStore(light_lists, list_texel(texel + at / 4u), four);
         }
@@ -136,11 +158,11 @@ uint entries() {
 }
 
 void main() {
-    uint parent = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint parent = counters.first_parent + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     if (parent >= min(counters.parents, frame.parent_capacity)) return;
     uint index = frame.cluster_capacity + parent;
     bound(clusters[index].parent, clusters[index].children);
-    for (uint first = 0u; first < frame.top_nodes; first += 32u * GATHER_LANES) visit_tops(first);
+    walk();
     write_list(clusters[index].list);
     if (gl_LocalInvocationIndex == 0u) clusters[index].reaching = entries();
 }

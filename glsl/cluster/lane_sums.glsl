@@ -1,6 +1,9 @@
 // Sums over the invocations of a small workgroup, without an assumption on subgroups. The including shader defines LANES, the
-// invocations of the workgroup.
-shared uvec2 lane_values[LANES];
+// invocations of the workgroup, and MOST_LANES where it does not know them.
+#ifndef MOST_LANES
+#define MOST_LANES LANES
+#endif
+shared uvec2 lane_values[MOST_LANES];
 
 // Sums of the values of lower invocations, and of all.
 uvec4 lane_sums(uvec2 value) {

@@ -1,10 +1,9 @@
 //! What can be read from a frame once it is rendered.
 
-use super::{Frame, tiles, tiles_of};
+use super::{Frame, pass_inputs, tiles, tiles_of};
 use crate::error::Result;
 use crate::gpu::{Image, Use};
 use crate::image::HdrImage;
-use crate::passes::PassInputs;
 use crate::passes::aov::{Aov, Quantity};
 use crate::passes::cluster::ClusterTargets;
 use crate::passes::floors::{FloorPass, Floors};
@@ -42,8 +41,7 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn aov(&self, quantity: Quantity) -> Result<Vec<[f32; 4]>> {
-        let inputs =
-            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
+        let inputs = pass_inputs(&self.device, &self.scene, &self.settings);
         let aov = Aov::new(&inputs, &self.targets, quantity)?;
         self.device.run("aov", |cmd| {
             aov.record(cmd, &self.view());

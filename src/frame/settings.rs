@@ -24,6 +24,8 @@ pub struct FrameSettings {
     pub front_end: FrontEnd,
     /// Every light on every pixel, without clusters: what the clustered picture is measured against.
     pub brute_force: bool,
+    /// Invocations of small workgroups: 8, 16 or 32; `None`: what suits the device. No picture depends on it.
+    pub lanes: Option<u32>,
 }
 
 impl FrameSettings {
@@ -39,6 +41,7 @@ impl FrameSettings {
             perspective: matches!(camera.projection, Projection::Perspective { .. }),
             front_end: render.front_end,
             brute_force: false,
+            lanes: None,
         }
     }
 }

@@ -5,7 +5,8 @@
 //! 3. `scan_tiles`: a parent for each block and band that has clusters, and ids for these.
 //! 4. `bounds`: each pixel's cluster id; each cluster's box of samples.
 //! 5. `area`: which area lights reach each cluster, one bit each, in the texels before the lists.
-//! 6. `gather`: the lights that reach each parent, by a walk over the light tree.
+//! 6. `gather`: the lights that reach each parent, by a walk over the light tree. Where a parent's list would be too long,
+//!    `split` makes parents of its children, and these are gathered.
 //! 7. `count`: which lights of its parent's list reach each cluster, kept as masks.
 //! 8. `scan_lists`: where each list lies.
 //! 9. `write`: the lists, in Hilbert order, four indices a texel, from the masks.
@@ -18,6 +19,8 @@
 //! scene has many area lights, steps 6 to 9 where it has lights with a range, step 10 once a
 //! frame has needed it, steps 11 to 13 where it has many without, and the others where it has any of these.
 
+mod capacity;
+
 use super::forward::Work;
 use super::{PassInputs, View};
 use crate::error::{Error, Result};
@@ -25,79 +28,16 @@ use crate::gpu::{
     Buffer, BufferUse, Commands, ComputePipeline, DescriptorSet, Device, Format, Image, ImageDescription,
     Specialization, Use, shaders,
 };
-use crate::shared::{
-    self, BLOCK_TILES, Cluster, Counters, LEAF_LIGHTS, LINEAR_GROUP, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2,
-    PARENT_ROOM, SIBLINGS, Tile,
-};
+use crate::shared::{self, Cluster, Counters, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, TILE_SIZE, Tile};
+use capacity::{MAX_LAYERS, area, blocks};
 use std::sync::Arc;
 
-/// Array layers that every device has: 2 GiB of lists.
-const MAX_LAYERS: u32 = 256;
+pub use capacity::Capacity;
 
 /// Words of [`Counters`] where dispatches over clusters, parents and folded clusters begin.
 const OF_CLUSTERS: u32 = 0;
 const OF_PARENTS: u32 = 3;
 const OF_FOLDS: u32 = 6;
-
-/// Room for clusters, their parents, masks and lists; grows when a frame needs more.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Capacity {
-    /// Clusters, a multiple of `LINEAR_GROUP`.
-    pub clusters: u32,
-    /// Parents; 0 where there are no lists.
-    pub parents: u32,
-    /// Texels of a cluster's mask of area lights.
-    pub mask: u32,
-    /// Texels of masks and lists.
-    pub texels: u32,
-    /// Step 10 has lists to make.
-    pub folds: bool,
-    /// Some of them end in nodes of folded lights.
-    pub nodes: bool,
-}
-
-impl Capacity {
-    /// What a picture of so many tiles starts with: two depth layers, 64 lights in each.
-    #[must_use]
-    pub fn start(tiles: [u32; 2], lists: bool, mask: u32) -> Self {
-        let clusters = (area(tiles).max(32) * 2).next_multiple_of(LINEAR_GROUP);
-        let parents = if lists { 4 * area(blocks(tiles)) } else { 0 };
-        let room = Self { clusters, parents, mask, texels: 0, folds: false, nodes: false };
-        room.with_texels(room.first_texels()[2] + u64::from(area(tiles)) * 32)
-    }
-
-    /// Where the lists of parents, the masks of their children and the lists of clusters begin. Masks of area lights come
-    /// before them.
-    #[must_use]
-    pub fn first_texels(self) -> [u64; 3] {
-        let parents = u64::from(self.clusters) * u64::from(self.mask);
-        let masks = parents + u64::from(self.parents) * u64::from(PARENT_ROOM / 4);
-        let siblings = if self.parents > 0 { u64::from(self.clusters / SIBLINGS) } else { 0 };
-        [parents, masks, masks + siblings * u64::from(PARENT_ROOM / LEAF_LIGHTS)]
-    }
-
-    /// Whole layers of the list image.
-    fn with_texels(self, texels: u64) -> Self {
-        let layer = 1 << (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2);
-        // More than fits in 32 bits no device has: the image of the lists says so.
-        let layers = texels.div_ceil(u64::from(layer)).clamp(1, u64::from(u32::MAX / layer));
-        Self { texels: layers as u32 * layer, ..self }
-    }
-
-    /// Enough for what the counters ask for; `None` if it is so already.
-    #[must_use]
-    pub fn grown(self, counters: &Counters) -> Option<Self> {
-        let clusters = counters.clusters.max(self.clusters).next_multiple_of(LINEAR_GROUP);
-        let parents = if self.parents > 0 { counters.parents.max(self.parents) } else { 0 };
-        let folds = self.folds || counters.folding > 0;
-        let nodes = self.nodes || counters.overflowed > 0;
-        let larger = Self { clusters, parents, folds, nodes, ..self };
-        // Where clusters were missing, so were their lists: the texels needed are known only next time.
-        let lists = u64::from(counters.list_texels.max(self.texels)) - self.first_texels()[2];
-        let larger = larger.with_texels(larger.first_texels()[2] + lists);
-        (larger != self).then_some(larger)
-    }
-}
 
 /// What the pass writes.
 pub struct ClusterTargets {
@@ -173,15 +113,6 @@ impl ClusterTargets {
     }
 }
 
-/// Blocks of tiles, across and down.
-fn blocks(tiles: [u32; 2]) -> [u32; 2] {
-    tiles.map(|side| side.div_ceil(BLOCK_TILES))
-}
-
-fn area([x, y]: [u32; 2]) -> u32 {
-    x * y
-}
-
 /// The pass's pipelines.
 pub struct ClusterPass {
     slices: ComputePipeline,
@@ -191,11 +122,14 @@ pub struct ClusterPass {
     lists: Option<Lists>,
     cuts: Option<Cuts>,
     area: Option<ComputePipeline>,
+    /// Tiles that a workgroup of `slices` and `bounds` takes.
+    tiles: u32,
 }
 
 /// Those of lists.
 struct Lists {
     gather: ComputePipeline,
+    split: ComputePipeline,
     count: ComputePipeline,
     scan_lists: ComputePipeline,
     write: ComputePipeline,
@@ -217,15 +151,18 @@ impl ClusterPass {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>, work: Work, folds: bool) -> Result<Self> {
         let Work { lists, masks, resolve, cut, .. } = work;
-        let step = |shader| {
-            ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, &Specialization::default())
+        let with = |shader, specialization: &Specialization| {
+            ComputePipeline::new(inputs.device, &inputs.scene.layout, shader, specialization)
         };
+        let step = |shader| with(shader, &Specialization::default());
+        let lanes = Specialization::default().with(shared::SPEC_LANES, inputs.lanes);
         let of_lists = || -> Result<Lists> {
             Ok(Lists {
-                gather: step(shaders::CLUSTER_GATHER_COMP)?,
+                gather: with(shaders::CLUSTER_GATHER_COMP, &lanes)?,
                 count: step(shaders::CLUSTER_COUNT_COMP)?,
                 scan_lists: step(shaders::CLUSTER_SCAN_LISTS_COMP)?,
                 write: step(shaders::CLUSTER_WRITE_COMP)?,
+                split: step(shaders::CLUSTER_SPLIT_COMP)?,
                 fold: folds.then(|| step(shaders::CLUSTER_FOLD_COMP)).transpose()?,
             })
         };
@@ -236,22 +173,19 @@ impl ClusterPass {
                 write: step(shaders::CLUSTER_CUT_WRITE_COMP)?,
             })
         };
-        let notes = Specialization::default()
+        let notes = lanes
+            .clone()
             .with(shared::SPEC_NOTE_PIXELS, u32::from(resolve || cut))
             .with(shared::SPEC_NOTE_VARIANTS, u32::from(resolve));
         Ok(Self {
-            slices: step(shaders::CLUSTER_SLICES_COMP)?,
+            slices: with(shaders::CLUSTER_SLICES_COMP, &lanes)?,
             bands: step(shaders::CLUSTER_BANDS_COMP)?,
             scan_tiles: step(shaders::CLUSTER_SCAN_TILES_COMP)?,
-            bounds: ComputePipeline::new(
-                inputs.device,
-                &inputs.scene.layout,
-                shaders::CLUSTER_BOUNDS_COMP,
-                &notes,
-            )?,
+            bounds: with(shaders::CLUSTER_BOUNDS_COMP, &notes)?,
             lists: lists.then(of_lists).transpose()?,
             cuts: cut.then(of_cuts).transpose()?,
             area: masks.then(|| step(shaders::CLUSTER_AREA_COMP)).transpose()?,
+            tiles: inputs.lanes / TILE_SIZE,
         })
     }
 
@@ -259,10 +193,11 @@ impl ClusterPass {
     pub fn record(&self, cmd: &mut Commands, view: &View<'_>, targets: &ClusterTargets, tiles: [u32; 2]) {
         let sets = [view.frame, view.scene.set.get(0)];
         let flat = |[x, y]: [u32; 2]| [x, y, 1];
+        let by_tiles = [tiles[0].div_ceil(self.tiles), tiles[1], 1];
         let next = |cmd: &mut Commands| cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
         cmd.labelled("cluster", |cmd| {
             cmd.bind_compute(&self.slices, &sets);
-            cmd.dispatch(flat(tiles));
+            cmd.dispatch(by_tiles);
             next(cmd);
             cmd.bind_compute(&self.bands, &sets);
             cmd.dispatch(flat(blocks(tiles)));
@@ -272,7 +207,7 @@ impl ClusterPass {
             cmd.memory_barrier(Use::ComputeWrite, Use::IndirectRead);
             next(cmd);
             cmd.bind_compute(&self.bounds, &sets);
-            cmd.dispatch(flat(tiles));
+            cmd.dispatch(by_tiles);
             if let Some(area) = &self.area {
                 next(cmd);
                 cmd.bind_compute(area, &sets);
@@ -291,6 +226,8 @@ impl ClusterPass {
 impl Lists {
     fn record(&self, cmd: &mut Commands, sets: &[DescriptorSet<'_>], targets: &ClusterTargets) {
         let steps = [
+            (&self.gather, Some(OF_PARENTS)),
+            (&self.split, None),
             (&self.gather, Some(OF_PARENTS)),
             (&self.count, Some(OF_CLUSTERS)),
             (&self.scan_lists, None),

@@ -34,6 +34,8 @@ pub struct PassInputs<'a> {
     pub scene: &'a GpuScene,
     /// Perspective camera; orthographic otherwise.
     pub perspective: bool,
+    /// Invocations of small workgroups.
+    pub lanes: u32,
 }
 
 /// One pipeline per variant of the scene's materials, for a subpass that shades what the prepass left visible; none for

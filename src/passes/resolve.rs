@@ -45,8 +45,7 @@ impl Resolve {
         let &PassInputs { device, scene, .. } = inputs;
         let sets = [shared::frame::BINDINGS, shared::scene::BINDINGS, shared::resolve::BINDINGS];
         let layout = Arc::new(PipelineLayout::new(device, &sets)?);
-        // A vector of lavapipe, or a warp.
-        let lanes = if device.is_cpu() { 8 } else { 32 };
+        let lanes = inputs.lanes;
         let most = (TILE_PIXELS / lanes).min(shared::RESOLVE_PIXELS);
         let base = Specialization::default().with(shared::SPEC_LANES, lanes);
         let many = (0..).zip(&scene.resolved.specializations).map(|(index, variant)| {

@@ -50,19 +50,19 @@ fn workgroups_have_the_size_that_dispatches_assume() {
     for (shader, module) in modules() {
         let want = match shader.name {
             _ if shader.stage != Stage::Compute => None,
-            // One workgroup per tile: one invocation per column, or per pixel.
-            "cluster/slices.comp" | "cluster/bounds.comp" => Some([tile, 1, 1]),
+            // Chosen when the pipeline is made: 8, or 32.
+            "cluster/slices.comp" | "cluster/bounds.comp" | "cluster/gather.comp" => Some([1, 1, 1]),
+            name if name.starts_with("resolve/many_") => Some([1, 1, 1]),
+            // One workgroup per tile: one invocation per pixel.
             "cluster/pairs.comp" | "cluster/floors.comp" => Some([tile, tile, 1]),
             "cluster/bands.comp" => Some([sized("BANDS"), 1, 1]),
-            "cluster/gather.comp" => Some([sized("GATHER_LANES"), 1, 1]),
             "cluster/fold.comp" => Some([sized("FOLD_NODES"), 1, 1]),
             "cluster/count.comp" => Some([linear / sized("SIBLINGS"), 1, 1]),
             "cluster/scan_tiles.comp"
             | "cluster/scan_lists.comp"
             | "cluster/scan_cuts.comp"
+            | "cluster/split.comp"
             | "resolve/gather.comp" => Some([scan, 1, 1]),
-            // Chosen when the pipeline is made: 8, or 32.
-            name if name.starts_with("resolve/many_") => Some([1, 1, 1]),
             // One invocation per element.
             _ => Some([linear, 1, 1]),
         };

@@ -4,7 +4,7 @@ use crate::support::{Rig, scene};
 use amas::gpu::Use;
 use amas::passes::aov::Quantity;
 use amas::reference::lights::reaching_point;
-use amas::shared::{Cluster, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, NO_CLUSTER};
+use amas::shared::{Cluster, LIST_HEIGHT_LOG2, LIST_WIDTH_LOG2, NO_CLUSTER, PARENT_ROOM, SIBLINGS};
 use glam::Vec3;
 
 /// Rooms of boxes and spheres; `camera` is the camera's text.
@@ -33,20 +33,29 @@ fn list(texels: &[[u32; 4]], cluster: &Cluster) -> Vec<u32> {
     (0..cluster.reaching).map(|i| texels[(cluster.list + i / 4) as usize][(i % 4) as usize]).collect()
 }
 
+/// The list of each id, empty where no cluster took it.
+fn lists(rig: &Rig) -> Vec<Vec<u32>> {
+    let (_, targets) = rig.frame.cluster_targets();
+    let texels: Vec<[u32; 4]> = targets.lists.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
+    let clusters = targets.clusters.fetch(Use::ComputeWrite).unwrap();
+    let ids = rig.frame.counters().clusters as usize;
+    clusters[..ids].iter().map(|cluster| list(&texels, cluster)).collect()
+}
+
 /// Asserts that no reaching light is missing from any pixel's list; returns entries over reaching lights.
 fn check(text: &str) -> f64 {
     let mut rig = Rig::new(scene(text));
     rig.render();
+    check_lists(&rig)
+}
+
+/// The same of the picture last rendered.
+fn check_lists(rig: &Rig) -> f64 {
     let positions = rig.aov(Quantity::Position);
-    let (targets, clusters) = rig.frame.cluster_targets();
+    let (targets, _) = rig.frame.cluster_targets();
     let ids: Vec<u32> = targets.cluster_ids.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
-    let texels: Vec<[u32; 4]> = clusters.lists.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
-    let clusters = clusters.clusters.fetch(Use::ComputeWrite).unwrap();
+    let lists = lists(rig);
     let lights = &rig.gpu_scene.lights.lights[..rig.gpu_scene.lights.ranged];
-    let lists: Vec<Vec<u32>> = {
-        let ids = rig.frame.counters().clusters as usize;
-        clusters[..ids].iter().map(|cluster| list(&texels, cluster)).collect()
-    };
     for list in &lists {
         assert!(list.windows(2).all(|pair| pair[0] < pair[1]), "ascending, so without duplicates");
     }
@@ -161,4 +170,38 @@ fn random_views() {
         let name = format!("{position:.1?} to {target:.1?}");
         report(&name, &world(&camera, NEAR_LIGHTS, "[128, 72]"));
     }
+}
+
+/// Lights so dense that parents have no room for those that reach them, though clusters have.
+#[test]
+fn crowded_parents_are_split() {
+    let dense = NEAR_LIGHTS.replace("count = 1500", "count = 60000").replace("range = 1.3", "range = 0.3");
+    let mut rig = Rig::new(scene(&world(PERSPECTIVE, &dense, "[97, 57]")));
+    rig.render();
+    println!("dense: {:.2} entries per reaching light", check_lists(&rig));
+    let counters = rig.frame.counters();
+    assert!(counters.parents > counters.first_parent, "some were split");
+    // Siblings whose lists have room together are not crowded; ids that no cluster took are not counted.
+    let siblings =
+        lists(&rig).chunks(SIBLINGS as usize).map(|lists| lists.iter().map(Vec::len).sum::<usize>());
+    let crowds = siblings.filter(|&entries| entries > PARENT_ROOM as usize).count();
+    assert!(counters.folding <= SIBLINGS * crowds as u32, "{} of {crowds}", counters.folding);
+    assert_eq!(counters.folded, 0);
+}
+
+/// Whatever the size of small workgroups: pictures, ids and lists.
+#[test]
+fn lanes_change_nothing() {
+    // Three crowns, parents that are split, and a last workgroup of tiles that is not full.
+    let dense = NEAR_LIGHTS.replace("count = 1500", "count = 300000").replace("range = 1.3", "range = 0.1");
+    let results = [8, 16, 32].map(|lanes| {
+        let scene = scene(&world(PERSPECTIVE, &dense, "[145, 90]"));
+        let mut rig = Rig::with(scene, |settings| settings.lanes = Some(lanes));
+        let picture = rig.render();
+        let (targets, _) = rig.frame.cluster_targets();
+        let ids: Vec<u32> = targets.cluster_ids.fetch(Use::FragmentRead, Use::FragmentRead).unwrap();
+        assert!(rig.frame.counters().entries > 0);
+        (picture, ids, lists(&rig))
+    });
+    assert!(results[0] == results[1] && results[0] == results[2]);
 }
