@@ -14,13 +14,15 @@ use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
 use crate::image::{HdrImage, write_atomically};
+use crate::light_tree::LightTree;
 use crate::scene::Scene;
+use cpu_time::ProcessTime;
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
-use sweeps::{SWEEPS, Setting, Sweep};
+use sweeps::{GROWTH, SWEEPS, Setting, Sweep};
 
 /// What is written.
 pub(super) const FILES: [&str; 5] = ["lights.csv", "lights.json", "lights.md", "lights.svg", "lights.png"];
@@ -52,6 +54,8 @@ pub(super) struct Point {
     cpu_ms: Figure,
     /// Wall time.
     wall_ms: Figure,
+    /// CPU time of the order of the lights and the tree over them, milliseconds: once where they stand.
+    tree_ms: Figure,
     /// Pairs of pixel and light a pixel.
     pairs_per_pixel: f64,
     /// Evaluated pairs over useful ones.
@@ -103,6 +107,8 @@ struct Subject {
     frame: Frame,
     truth: HdrImage,
     timings: Vec<Timings>,
+    /// CPU milliseconds of order and tree.
+    trees: Vec<f64>,
 }
 
 fn of_sweep(device: &Arc<Device>, sweep: &Sweep, extent: Extent, bar: &ProgressBar) -> Result<Vec<Point>> {
@@ -129,11 +135,12 @@ fn of_sweep(device: &Arc<Device>, sweep: &Sweep, extent: Extent, bar: &ProgressB
         render(&mut frame, &scene)?;
         bar.inc(1);
         last = Some((scene.clone(), gpu_scene, truth.clone()));
-        subjects.push(Subject { setting, scene, frame, truth, timings: Vec::new() });
+        subjects.push(Subject { setting, scene, frame, truth, timings: Vec::new(), trees: Vec::new() });
     }
     for _ in 0..extent.repetitions {
         for subject in &mut subjects {
             subject.timings.push(render(&mut subject.frame, &subject.scene)?);
+            subject.trees.push(tree_ms(&subject.scene));
             bar.inc(1);
         }
     }
@@ -161,8 +168,23 @@ fn render(frame: &mut Frame, scene: &Scene) -> Result<Timings> {
     })
 }
 
+fn tree_ms(scene: &Scene) -> f64 {
+    let clock = ProcessTime::now();
+    let tree = LightTree::new(&scene.point_lights);
+    let taken = clock.elapsed();
+    drop(tree);
+    taken.as_secs_f64() * 1e3
+}
+
+/// Frame time at most over that at least lights of the sweep of their number, without the tree.
+fn growth(points: &[Point]) -> Option<f64> {
+    let mut own = points.iter().filter(|p| p.sweep == GROWTH);
+    let first = own.next()?;
+    own.next_back().map(|last| last.cpu_ms.median / first.cpu_ms.median.max(f64::MIN_POSITIVE))
+}
+
 fn point(sweep: &Sweep, subject: &Subject) -> Result<Point> {
-    let Subject { setting, scene, frame, truth, timings } = subject;
+    let Subject { setting, scene, frame, truth, timings, trees } = subject;
     let options = Options { mask: None, block: 1, display_referred: false };
     let picture = frame.hdr()?;
     let figures = compare::compare(&picture, truth, &options)?;
@@ -175,6 +197,7 @@ fn point(sweep: &Sweep, subject: &Subject) -> Result<Point> {
         lights: scene.point_lights.len(),
         cpu_ms: report::figure(timings, |t| Some(t.cpu_ms)).unwrap_or_default(),
         wall_ms: report::figure(timings, |t| Some(t.wall_ms)).unwrap_or_default(),
+        tree_ms: Figure::of(trees).unwrap_or_default(),
         pairs_per_pixel: pairs.evaluated as f64 / f64::from(width * height),
         pair_ratio: pairs.evaluated as f64 / pairs.useful.max(1) as f64,
         error: figures.mean_relative_error,

@@ -1,7 +1,7 @@
 //! The chapter on point lights as text.
 
-use super::sweeps::SWEEPS;
-use super::{Figures, Point};
+use super::sweeps::{GROWTH, SWEEPS};
+use super::{Figures, Point, growth};
 use crate::gpu::DeviceInfo;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -9,18 +9,19 @@ use std::io::{self, Write};
 pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
     writeln!(
         file,
-        "sweep,setting,lights,cpu_ms,cpu_ms_mad,wall_ms,pairs_per_pixel,pair_ratio,error,error_p99,bias,pareto"
+        "sweep,setting,lights,cpu_ms,cpu_ms_mad,wall_ms,tree_cpu_ms,pairs_per_pixel,pair_ratio,error,error_p99,bias,pareto"
     )?;
     points.iter().try_for_each(|p| {
         writeln!(
             file,
-            "{},{},{},{:.2},{:.2},{:.2},{:.2},{:.3},{:.6},{:.6},{:.6},{}",
+            "{},{},{},{:.2},{:.2},{:.2},{:.2},{:.2},{:.3},{:.6},{:.6},{:.6},{}",
             p.sweep,
             p.setting,
             p.lights,
             p.cpu_ms.median,
             p.cpu_ms.mad,
             p.wall_ms.median,
+            p.tree_ms.median,
             p.pairs_per_pixel,
             p.pair_ratio,
             p.error,
@@ -46,7 +47,26 @@ pub(super) fn summary(figures: &Figures) -> String {
             );
         }
     }
+    if let Some(sentence) = growth_sentence(figures) {
+        text += &sentence;
+    }
     text.trim_end().to_owned()
+}
+
+/// What the sweep of the number of lights is for.
+fn growth_sentence(figures: &Figures) -> Option<String> {
+    let mut points = figures.points.iter().filter(|p| p.sweep == GROWTH);
+    let (least, most) = (points.next()?, points.next_back()?);
+    Some(format!(
+        "From {} to {} lights, with {:.1} and {:.1} of them at a pixel, a frame takes {:.2} times as long; order and tree of \
+         the most take {:.1} CPU ms, once where the lights stand.\n",
+        least.lights,
+        most.lights,
+        least.pairs_per_pixel / least.pair_ratio,
+        most.pairs_per_pixel / most.pair_ratio,
+        growth(&figures.points)?,
+        most.tree_ms.median
+    ))
 }
 
 pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
@@ -66,19 +86,20 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
         let _ = write!(
             text,
             "\n## `{}`\n\nSwept: {}.\n\n\
-             | {} | lights | CPU ms | wall ms | pairs a pixel | evaluated per useful | mean error | p99 | bias | front |\n\
-             | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+             | {} | lights | CPU ms | wall ms | tree, CPU ms | pairs a pixel | evaluated per useful | mean error | p99 | bias | front |\n\
+             | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
             sweep.name, sweep.what, sweep.name
         );
         for p in figures.points.iter().filter(|p| p.sweep == sweep.name) {
             let _ = writeln!(
                 text,
-                "| {} | {} | {:.1} ± {:.1} | {:.1} | {:.1} | {:.2} | {:.4} % | {:.3} % | {:+.4} % | {} |",
+                "| {} | {} | {:.1} ± {:.1} | {:.1} | {:.1} | {:.1} | {:.2} | {:.4} % | {:.3} % | {:+.4} % | {} |",
                 p.setting,
                 p.lights,
                 p.cpu_ms.median,
                 p.cpu_ms.mad,
                 p.wall_ms.median,
+                p.tree_ms.median,
                 p.pairs_per_pixel,
                 p.pair_ratio,
                 100.0 * p.error,
@@ -87,6 +108,9 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
                 if p.pareto { "yes" } else { "" }
             );
         }
+    }
+    if let Some(sentence) = growth_sentence(figures) {
+        let _ = write!(text, "\n{sentence}");
     }
     text
 }

@@ -2,7 +2,7 @@
 
 use super::super::plot::{Drawn, FONT, Plot, TITLE, number};
 use super::Point;
-use super::sweeps::SWEEPS;
+use super::sweeps::{GROWTH, SWEEPS};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -21,7 +21,7 @@ impl Plot for LightsPlot<'_> {
         root.fill(&WHITE)?;
         for (sweep, panel) in SWEEPS.iter().zip(root.split_evenly((1, SWEEPS.len()))) {
             let own: Vec<&Point> = self.0.iter().filter(|p| p.sweep == sweep.name).collect();
-            let growth = sweep.name == "lights";
+            let growth = sweep.name == GROWTH;
             let at = |p: &Point| match growth {
                 true => (p.setting, p.cpu_ms.median),
                 false => (p.cpu_ms.median, p.error.max(LEAST_ERROR)),

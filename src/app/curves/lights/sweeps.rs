@@ -36,6 +36,9 @@ pub(super) struct Sweep {
     pub(super) settings: &'static [Setting],
 }
 
+/// The sweep of the number of lights.
+pub(super) const GROWTH: &str = "lights";
+
 /// All knobs, each with its positions in order.
 pub(super) const SWEEPS: &[Sweep] = &[
     Sweep {
@@ -65,7 +68,7 @@ pub(super) const SWEEPS: &[Sweep] = &[
         ],
     },
     Sweep {
-        name: "lights",
+        name: GROWTH,
         what: "number of lights, as many of them at each pixel",
         settings: &[
             Setting::Lights(10),
@@ -78,19 +81,25 @@ pub(super) const SWEEPS: &[Sweep] = &[
     },
 ];
 
+/// log2 of the least number of lights of the sweep of it.
+const LEAST: u32 = 10;
+/// Ranges, metres, at which 28.1 of 2¹⁰, 2¹², 2¹⁴ … 2²⁰ lights reach a pixel in the mean, to 0.3 %: by the counts of useful
+/// pairs at 320 × 180, for the larger a range is the farther it goes beyond the box of lights.
+const RANGES: [f32; 6] = [14.608, 8.2544, 4.8726, 3.0099, 1.8255, 1.15];
+
 /// log2 of the lights of the first two sweeps.
 const LIGHTS: u32 = 16;
 
 impl Sweep {
-    /// The scene for a position of the knob, with 2^`fewer` times fewer lights than told.
+    /// The scene for a position of the knob, with 2^`fewer` times fewer lights than told, but 2¹⁰ at least where that is the knob.
     pub(super) fn scene(&self, setting: Setting, size: [u32; 2], fewer: u32) -> Result<Scene> {
         let mut scene = load_embedded("million.toml", HALL, &[], &[])?;
         scene.render.size = size;
         scene.render.background = [0.0; 3];
-        // The range at which as many of the lights reach a point as of the hall's million.
+        // The range at which as many of the lights reach a point as of the hall's million, were the box without end.
         let range = |log2: u32| 1.15 * f32::exp2((20 - log2) as f32 / 3.0);
         let log2 = match setting {
-            Setting::Lights(log2) => log2 - fewer.min(log2),
+            Setting::Lights(log2) => log2.saturating_sub(fewer).max(LEAST),
             _ => LIGHTS - fewer,
         };
         let lights = &mut scene.point_lights;
@@ -107,7 +116,7 @@ impl Sweep {
                 scene.render.max_lights_per_cluster = cap;
                 Some(2.0 * range(log2))
             }
-            Setting::Lights(_) => Some(range(log2)),
+            Setting::Lights(_) => Some(RANGES[(log2 - LEAST) as usize / 2]),
         };
         lights.iter_mut().for_each(|light| change(light, range, brighter));
         Ok(scene)
