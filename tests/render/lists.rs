@@ -182,8 +182,8 @@ fn crowded_parents_are_split() {
     let counters = rig.frame.counters();
     assert!(counters.parents > counters.first_parent, "some were split");
     // Siblings whose lists have room together are not crowded; ids that no cluster took are not counted.
-    let siblings =
-        lists(&rig).chunks(SIBLINGS as usize).map(|lists| lists.iter().map(Vec::len).sum::<usize>());
+    let all = lists(&rig);
+    let siblings = all.chunks(SIBLINGS as usize).map(|lists| lists.iter().map(Vec::len).sum::<usize>());
     let crowds = siblings.filter(|&entries| entries > PARENT_ROOM as usize).count();
     assert!(counters.folding <= SIBLINGS * crowds as u32, "{} of {crowds}", counters.folding);
     assert_eq!(counters.folded, 0);
