@@ -80,9 +80,8 @@ impl Flight {
             .command_buffers(&commands)
             .signal_semaphores(&signals)];
         // SAFETY: the buffer is fully recorded, the fence unsignalled, and this thread has the queue.
-        self.device
-            .with_queue(|queue| unsafe { self.device.raw.queue_submit(queue, &submit, self.landed) })
-            .called("vkQueueSubmit")?;
+        let submit = |queue| unsafe { self.device.raw.queue_submit(queue, &submit, self.landed) };
+        self.device.with_queue(submit).called("vkQueueSubmit")?;
         self.picture = Some(picture.clone());
         Ok(())
     }
