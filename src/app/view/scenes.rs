@@ -76,7 +76,7 @@ impl Viewer<'_> {
             self.watch.files(&picture.scene.files, loading.since);
         }
         let size = picture.scene.render.size;
-        if loading.aim == Aim::Again
+        if loading.aim != Aim::Other
             && size != self.size
             && let Some(stage) = &mut self.stage
         {
