@@ -1,7 +1,7 @@
 //! The window on a Wayland compositor without a screen.
 
 use super::{SCENE, View, amas, scene, stderr, wait_until};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
@@ -33,9 +33,10 @@ impl Compositor {
         View::of(self.command(scene).args(arguments).spawn().unwrap())
     }
 
-    /// Says on stderr what it tells the compositor.
+    /// Says in a file what it tells the compositor.
     fn open_telling(&self, scene: &Path) -> View {
-        View::of(self.command(scene).env("WAYLAND_DEBUG", "client").spawn().unwrap())
+        let said = std::fs::File::create(told(scene)).unwrap();
+        View::of(self.command(scene).env("WAYLAND_DEBUG", "client").stderr(said).spawn().unwrap())
     }
 
     fn command(&self, scene: &Path) -> Command {
@@ -43,6 +44,11 @@ impl Compositor {
         command.arg(scene).env("XDG_RUNTIME_DIR", self.folder.path()).env("WAYLAND_DISPLAY", "amas-test");
         command
     }
+}
+
+/// Beside the scene.
+fn told(scene: &Path) -> PathBuf {
+    scene.with_extension("log")
 }
 
 impl Drop for Compositor {
@@ -69,10 +75,11 @@ fn a_wayland_window_follows_its_scene() {
     let scene = scene(folder.path());
     let compositor = Compositor::start("desktop-shell.so");
     let view = compositor.open_telling(&scene);
-    std::thread::sleep(Duration::from_secs(2));
+    wait_until("the first size", || sizes(&scene).last().is_some_and(|size| size == "96, 64"));
     std::fs::write(&scene, SCENE.replace("[96, 64]", "[120, 80]")).unwrap();
-    std::thread::sleep(Duration::from_secs(2));
-    assert_eq!(sizes(view), ["96, 64", "120, 80"]);
+    wait_until("the second size", || sizes(&scene).last().is_some_and(|size| size == "120, 80"));
+    view.signal("TERM");
+    assert_eq!(view.output().status.code(), Some(0));
 }
 
 /// This shell gives windows the whole output. Without a seat it keeps them behind its background and asks for no picture: a
@@ -83,16 +90,14 @@ fn a_wayland_window_takes_the_size_that_it_is_given() {
     let scene = scene(folder.path());
     let compositor = Compositor::start("kiosk-shell.so");
     let view = compositor.open_telling(&scene);
-    std::thread::sleep(Duration::from_secs(2));
-    assert_eq!(sizes(view).last().map(String::as_str), Some("200, 140"));
+    wait_until("the size", || sizes(&scene).last().is_some_and(|size| size == "200, 140"));
+    view.signal("TERM");
+    assert_eq!(view.output().status.code(), Some(0));
 }
 
-/// Ends the window, and says which sizes its images had, in order.
-fn sizes(view: View) -> Vec<String> {
-    view.signal("TERM");
-    let output = view.output();
-    let said = stderr(&output);
-    assert_eq!(output.status.code(), Some(0), "{said}");
+/// Which sizes the images of a window had so far that tells what it does, in order.
+fn sizes(scene: &Path) -> Vec<String> {
+    let said = std::fs::read_to_string(told(scene)).unwrap();
     // Of libwayland: -> wl_shm_pool@40.create_buffer(new id wl_buffer@42, 0, 200, 140, 832, 1)
     let buffers =
         said.lines().filter_map(|line| line.split_once("create_buffer(new id ")?.1.split_once(", 0, "));
