@@ -79,11 +79,9 @@ impl Flight {
             .wait_dst_stage_mask(&stages)
             .command_buffers(&commands)
             .signal_semaphores(&signals)];
-        let call = |queue| {
-            // SAFETY: the buffer is fully recorded, the fence unsignalled, and this thread has the queue.
-            unsafe { self.device.raw.queue_submit(queue, &submit, self.landed) }
-        };
-        self.device.with_queue(call).called("vkQueueSubmit")?;
+        // SAFETY: the buffer is fully recorded, the fence unsignalled, and this thread has the queue.
+        let submit = |queue| unsafe { self.device.raw.queue_submit(queue, &submit, self.landed) };
+        self.device.with_queue(submit).called("vkQueueSubmit")?;
         self.picture = Some(picture.clone());
         Ok(())
     }

@@ -47,7 +47,7 @@ pub(super) enum Aim {
 /// What a job has come to.
 pub(super) enum Progress {
     /// The files are read.
-    Read(Result<Scene>),
+    Read(Result<Box<Scene>>),
     /// The scene is on the device.
     Ready(Result<Box<Picture>>),
 }
@@ -74,7 +74,7 @@ impl Loading {
         };
         let (options, progress, proxy) = (job.options.clone(), job.progress.clone(), job.proxy.clone());
         job.worker.run(move || {
-            let scene = load_watched(&options, &progress);
+            let scene = load_watched(&options, &progress).map(Box::new);
             // Without an event loop nobody waits for it.
             let _ = proxy.send_event(Event::Loaded(ticket, Progress::Read(scene)));
         });
@@ -132,11 +132,11 @@ fn build(
     shape: Shape,
     progress: &ProgressBar,
 ) -> Result<Picture> {
-    let going_on = || match progress.is_finished() {
-        true => Err(Error::usage("loading was cancelled", "load the scene again")),
-        false => {
-            progress.inc(1);
-            Ok(())
+    let going_on = || {
+        progress.inc(1);
+        match progress.is_finished() {
+            true => Err(Error::usage("loading was cancelled", "load the scene again")),
+            false => Ok(()),
         }
     };
     warn_of_missing_shadows(&scene);

@@ -19,7 +19,7 @@ impl Viewer<'_> {
             return Ok(());
         };
         let (result, ends) = match progress {
-            Progress::Read(Ok(scene)) => (self.upload(&mut loading, scene), false),
+            Progress::Read(Ok(scene)) => (self.upload(&mut loading, *scene), false),
             Progress::Read(Err(error)) => (Err(error), true),
             Progress::Ready(picture) => (picture.and_then(|picture| self.present(&loading, picture)), true),
         };
