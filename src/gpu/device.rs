@@ -53,6 +53,7 @@ pub struct Device {
     pub(super) physical: vk::PhysicalDevice,
     info: DeviceInfo,
     queue: vk::Queue,
+    #[cfg(feature = "viewer")]
     pub(super) family: u32,
     pool: vk::CommandPool,
     pub(super) cache: Cache,
@@ -144,6 +145,7 @@ impl Device {
             physical: chosen.physical,
             info: chosen.info,
             queue,
+            #[cfg(feature = "viewer")]
             family: chosen.family,
             pool,
             cache,

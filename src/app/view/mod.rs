@@ -47,7 +47,6 @@ use worker::Worker;
 const LOOK: Duration = Duration::from_millis(50);
 
 /// What other threads tell the window's.
-#[allow(clippy::large_enum_variant, reason = "a scene moves through it once")]
 enum Event {
     /// A signal asks to close.
     Quit,
