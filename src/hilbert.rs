@@ -100,12 +100,52 @@ impl State {
     }
 }
 
-/// Indices of the points in the curve's order; points in one place keep theirs.
-///
-/// Points that fall into one cell are ordered along a curve through their own bounds: one point far from all others, which
-/// makes the cells large, does not leave the others in disorder.
+/// Indices of the points in the curve's order; points in one place keep theirs. A few that lie far from all others come
+/// last, along a curve of their own, so that the others' has cells of their size.
 #[must_use]
 pub fn order(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u32> {
+    let bulk = bulk(points.clone());
+    let inside = |p: Vec3| bulk[0].cmple(p).all() && p.cmple(bulk[1]).all();
+    if bounds(points.clone()).into_iter().all(inside) {
+        return along_curve(points);
+    }
+    let places: Vec<Vec3> = points.collect();
+    let (near, far): (Vec<u32>, Vec<u32>) =
+        (0..places.len() as u32).partition(|&index| inside(places[index as usize]));
+    [near, far].into_iter().flat_map(|part| sub_order(&places, &part)).collect()
+}
+
+/// A part of all indices in the order of a curve through their points.
+fn sub_order(places: &[Vec3], part: &[u32]) -> Vec<u32> {
+    let own: Vec<Vec3> = part.iter().map(|&index| places[index as usize]).collect();
+    along_curve(own.iter().copied()).into_iter().map(|at| part[at as usize]).collect()
+}
+
+/// A box around all but a few far points: the 5th to the 95th percentile of a sample, and twice that on every side.
+fn bulk(points: impl ExactSizeIterator<Item = Vec3>) -> [Vec3; 2] {
+    let stride = (points.len() / 1024).max(1);
+    let mut sample: Vec<Vec3> = points.step_by(stride).collect();
+    if sample.len() < 64 {
+        return [Vec3::NEG_INFINITY, Vec3::INFINITY];
+    }
+    let mut percentile = |percent: usize| {
+        let rank = sample.len() * percent / 100;
+        Vec3::from_array(std::array::from_fn(|axis| {
+            sample.select_nth_unstable_by(rank, |a, b| a[axis].total_cmp(&b[axis])).1[axis]
+        }))
+    };
+    let (low, high) = (percentile(5), percentile(95));
+    let margin = 2.0 * (high - low).max_element();
+    [low - margin, high + margin]
+}
+
+/// Least and largest coordinates.
+fn bounds(points: impl Iterator<Item = Vec3>) -> [Vec3; 2] {
+    points.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[lower, upper], p| [lower.min(p), upper.max(p)])
+}
+
+/// As [`order`], in one curve. Points that crowd into one cell are ordered along a curve through their own bounds.
+fn along_curve(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u32> {
     let elements = sorted(points.clone());
     let mut order: Vec<u32> = elements.iter().map(|&element| element as u32).collect();
     let mut places = Vec::new();
@@ -119,11 +159,7 @@ pub fn order(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u32> {
         if places.is_empty() {
             places.extend(points.clone());
         }
-        let own: Vec<Vec3> = order[within.clone()].iter().map(|&index| places[index as usize]).collect();
-        let along: Vec<u32> = self::order(own.iter().copied())
-            .into_iter()
-            .map(|at| order[within.start + at as usize])
-            .collect();
+        let along = sub_order(&places, &order[within.clone()]);
         order[within].copy_from_slice(&along);
     }
     order
@@ -131,9 +167,7 @@ pub fn order(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u32> {
 
 /// Keys and indices of the points, sorted by the keys but for [`FEW`] together.
 fn sorted(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u64> {
-    let (lower, upper) = points
-        .clone()
-        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), p| (lower.min(p), upper.max(p)));
+    let [lower, upper] = bounds(points.clone());
     // Halves, so that no difference of numbers is infinite.
     let extent = (0.5 * upper - 0.5 * lower).max_element();
     // The far corner still falls into a cell.

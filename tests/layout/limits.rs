@@ -54,7 +54,7 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             "cluster/slices.comp" | "cluster/bounds.comp" | "cluster/gather.comp" => Some([1, 1, 1]),
             name if name.starts_with("resolve/many_") => Some([1, 1, 1]),
             // One workgroup per tile: one invocation per pixel.
-            "cluster/pairs.comp" | "cluster/floors.comp" => Some([tile, tile, 1]),
+            "cluster/pairs.comp" | "cluster/floors.comp" | "cluster/given_up.comp" => Some([tile, tile, 1]),
             "cluster/bands.comp" => Some([sized("BANDS"), 1, 1]),
             "cluster/fold.comp" => Some([sized("FOLD_LANES"), 1, 1]),
             "cluster/count.comp" => Some([linear / sized("SIBLINGS"), 1, 1]),

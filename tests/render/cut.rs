@@ -129,9 +129,7 @@ fn the_estimate_covers_glossy_surfaces() {
         let world = world(&glossy(material, alpha), lights(Kind::Uniform, 20_000));
         let brute = brute(&world);
         for light_error in [0.05, 0.01] {
-            let found = figures(&world, &brute, light_error);
-            assert_kept(&found, light_error, material);
-            assert_estimate(&found, material);
+            assert_estimate(&figures(&world, &brute, light_error), material);
         }
     }
 }
@@ -301,25 +299,6 @@ fn hard_cases_stay_finite() {
     let world = world(&text, lights(Kind::Uniform, 5000));
     let found = figures(&world, &brute(&world), 0.02);
     assert_kept(&found, 0.02, "orthographic");
-}
-
-/// Lights of every distance over forty octaves, as bright as far: nodes are as large as they are far, so each pixel has to see
-/// most of them light by light, more than an invocation's loops may hold on lavapipe. Every light is evaluated then.
-#[test]
-fn a_cut_that_asks_for_too_much_is_given_up() {
-    let mut all = lights(Kind::Uniform, 200_000);
-    for (i, light) in all.iter_mut().enumerate() {
-        let direction = (light.position - Vec3::new(0.0, 1.5, 0.0)).normalize_or(Vec3::Y);
-        let distance = 10_f32.powf(12.0 * i as f32 / 200_000.0 - 3.0);
-        light.position = Vec3::new(0.2, 0.3, 2.0) + distance * direction;
-        light.intensity *= distance * distance;
-    }
-    let mut world = world(&matte(0), all);
-    world.render.size = [32, 32];
-    let mut rig = cut(&world, 0.002);
-    let picture = rig.render();
-    assert_eq!((rig.frame.counters().cut_entries, rig.frame.light_error().unwrap()), (0, 0.0));
-    assert_eq!(picture, brute(&world));
 }
 
 /// More lights than a tile has pixels, all in one cluster.
