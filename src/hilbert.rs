@@ -1,4 +1,4 @@
-//! The order of points along a Hilbert curve through their bounds, in linear time.
+//! The order of points along a Hilbert curve through their bounds, in linear time unless they crowd into few places.
 //!
 //! Keys have 10 bits an axis. They are Skilling's (2004, «Programming the Hilbert curve»), made two levels at a time by a
 //! table of the states that his algorithm can be in. A stable radix sort of three passes orders them.
@@ -10,6 +10,12 @@ use std::sync::LazyLock;
 const BITS: u32 = 10;
 /// Bits of a pass of the sort: a third of a key.
 const DIGIT: u32 = BITS;
+/// Cells along an axis.
+const CELLS: f32 = (1 << BITS) as f32;
+/// Points of one cell that keep their order: those of a leaf of the tree with moments.
+const LEAF: usize = 8;
+/// From so many elements on a radix sort is faster.
+const RADIX_LEAST: usize = 2048;
 /// Orders and signs of the axes, and the sign of the Gray code.
 const STATES: usize = 6 * 8 * 2;
 
@@ -70,49 +76,129 @@ impl State {
     }
 }
 
-/// Indices of the points in the curve's order; points with equal keys keep theirs.
+/// A part of space, and the curve's state on entering it.
+#[derive(Clone, Copy)]
+struct Cube {
+    lower: Vec3,
+    size: f32,
+    state: usize,
+}
+
+/// Indices of `count` points in the curve's order; points in one place keep theirs.
+///
+/// Points that share a cell follow the curve on inside it: one point far from all others, which makes the cells large, does
+/// not leave the others in disorder.
 #[must_use]
-pub fn order(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u32> {
-    let (lower, upper) = points
-        .clone()
-        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), p| (lower.min(p), upper.max(p)));
-    let extent = (upper - lower).max_element().max(f32::MIN_POSITIVE);
-    let scale = ((1 << BITS) - 1) as f32 / extent;
+pub fn order(count: usize, point: impl Fn(usize) -> Vec3) -> Vec<u32> {
+    let (lower, upper) = bulk(count, &point);
+    let inside = |index: u64| {
+        let place = point(index as usize);
+        place.cmpge(lower).all() && place.cmple(upper).all()
+    };
+    let mut elements: Vec<u64> = (0..count as u64).filter(|index| inside(*index)).collect();
+    let many = elements.len();
+    elements.extend((0..count as u64).filter(|index| many < count && !inside(*index)));
+    let mut sorted = vec![0; count];
+    let everywhere = Cube { lower: Vec3::ZERO, size: f32::INFINITY, state: 0 };
+    let (bulk, far) = elements.split_at_mut(many);
+    sort(bulk, &mut sorted[..many], &point, everywhere);
+    sort(far, &mut sorted[many..], &point, everywhere);
+    elements.into_iter().map(|element| element as u32).collect()
+}
+
+/// A box around all but a few far points, which get a curve of their own: by the 5th and the 95th percentile of a sample.
+fn bulk(count: usize, point: &impl Fn(usize) -> Vec3) -> (Vec3, Vec3) {
+    let sample: Vec<Vec3> = (0..count).step_by((count / 1024).max(1)).map(point).collect();
+    if sample.len() < 64 {
+        return (Vec3::NEG_INFINITY, Vec3::INFINITY);
+    }
+    let percentile = |percent: usize| {
+        Vec3::from_array(std::array::from_fn(|axis| {
+            let mut values: Vec<f32> = sample.iter().map(|place| place[axis]).collect();
+            let rank = values.len() * percent / 100;
+            *values.select_nth_unstable_by(rank, f32::total_cmp).1
+        }))
+    };
+    let (low, high) = (percentile(5), percentile(95));
+    let margin = 2.0 * (high - low).max_element();
+    (low - margin, high + margin)
+}
+
+/// Sorts elements, whose lower halves are indices of points in a cube; those in one of its cells are sorted again, where
+/// there are more than a leaf of the trees holds. Points that fill little of the cube get a curve of their own.
+fn sort(elements: &mut [u64], sorted: &mut [u64], point: &impl Fn(usize) -> Vec3, mut cube: Cube) {
+    let places = elements.iter().map(|element| point(*element as u32 as usize));
+    let (lower, upper) =
+        places.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lower, upper), p| (lower.min(p), upper.max(p)));
+    let extent = (upper - lower).max_element().clamp(0.0, f32::MAX);
+    if extent < f32::MIN_POSITIVE {
+        return;
+    }
+    if extent < cube.size / 8.0 {
+        // The last cell is the upper corner's.
+        cube = Cube { lower, size: (extent * (CELLS / (CELLS - 1.0))).min(f32::MAX), state: 0 };
+    }
+    let scale = (CELLS / cube.size).min(f32::MAX);
+    let cell = |index: u32| ((point(index as usize) - cube.lower) * scale).min(Vec3::splat(CELLS - 1.0));
     let steps = &*STEPS;
-    let mut counts = [[0_u32; 1 << DIGIT]; 3];
-    let mut keyed: Vec<u64> = Vec::with_capacity(points.len());
-    keyed.extend(points.enumerate().map(|(index, p)| {
-        let key = key(steps, (p - lower) * scale);
-        for (digit, counts) in counts.iter_mut().enumerate() {
-            counts[digit_of(key.into(), digit)] += 1;
+    for element in elements.iter_mut() {
+        let index = *element as u32;
+        *element = u64::from(key(steps, cell(index), cube.state).0) << 32 | u64::from(index);
+    }
+    if elements.len() < RADIX_LEAST {
+        elements.sort_unstable()
+    } else {
+        radix_sort(elements, sorted)
+    }
+    let all = elements.len();
+    let mut rest = elements;
+    while let Some(&first) = rest.first() {
+        let count = rest.iter().take_while(|element| **element >> 32 == first >> 32).count();
+        let (run, behind) = rest.split_at_mut(count);
+        if count > LEAF && (count < all || cube.size > extent) {
+            let place = cell(first as u32);
+            let size = cube.size / CELLS;
+            let lower = cube.lower + place.floor().max(Vec3::ZERO) * size;
+            let inside = Cube { lower, size, state: key(steps, place, cube.state).1 };
+            sort(run, &mut sorted[..count], point, inside);
         }
-        u64::from(key) << 32 | index as u64
-    }));
-    let mut sorted = vec![0; keyed.len()];
+        rest = behind;
+    }
+}
+
+/// By the upper halves; equal ones keep their order.
+fn radix_sort(elements: &mut [u64], sorted: &mut [u64]) {
+    let mut counts = [[0_u32; 1 << DIGIT]; 3];
+    for element in &*elements {
+        for (digit, counts) in counts.iter_mut().enumerate() {
+            counts[digit_of(element >> 32, digit)] += 1;
+        }
+    }
+    let (mut from, mut to) = (elements, sorted);
     for (digit, counts) in counts.iter_mut().enumerate() {
         let mut first = 0;
         for count in counts.iter_mut() {
             (first, *count) = (first + *count, first);
         }
-        for &element in &keyed {
+        for &element in &*from {
             let place = &mut counts[digit_of(element >> 32, digit)];
-            sorted[*place as usize] = element;
+            to[*place as usize] = element;
             *place += 1;
         }
-        std::mem::swap(&mut keyed, &mut sorted);
+        std::mem::swap(&mut from, &mut to);
     }
-    keyed.into_iter().map(|element| element as u32).collect()
+    // Three passes leave it in the other half.
+    to.copy_from_slice(from);
 }
 
 fn digit_of(key: u64, digit: usize) -> usize {
     (key >> (digit as u32 * DIGIT)) as usize & ((1 << DIGIT) - 1)
 }
 
-/// Place along the curve of a point of [0, 2^BITS − 1]³.
-fn key(steps: &[u16; 128 * 64], p: Vec3) -> u32 {
+/// Place along the curve of a point of [0, 2^BITS − 1]³, and the state in its cell.
+fn key(steps: &[u16; 128 * 64], p: Vec3, mut state: usize) -> (u32, usize) {
     // Added to 2²³ a float's last bits are the integer: a conversion with its checks costs three times as much.
     let [x, y, z] = p.to_array().map(|v| ((v - 0.5).max(0.0) + 8_388_608.0).to_bits());
-    let mut state = 0;
     let mut key = 0;
     for level in (0..BITS).step_by(2).rev() {
         let two = |axis: u32| (axis >> level & 3) as usize;
@@ -120,7 +206,7 @@ fn key(steps: &[u16; 128 * 64], p: Vec3) -> u32 {
         key = key << 6 | step >> 7;
         state = (step & 127) as usize;
     }
-    key
+    (key, state)
 }
 
 #[cfg(test)]
@@ -133,7 +219,7 @@ mod tests {
         let mut cells = vec![None; 4096];
         for i in 0..4096_u32 {
             let p = Vec3::new((i & 15) as f32, (i >> 4 & 15) as f32, (i >> 8) as f32);
-            let place = &mut cells[(key(&STEPS, p * 64.0 + 0.5) >> 18) as usize];
+            let place = &mut cells[(key(&STEPS, p * 64.0 + 0.5, 0).0 >> 18) as usize];
             assert!(place.replace(p).is_none());
         }
         for pair in cells.windows(2) {
@@ -147,7 +233,7 @@ mod tests {
         let points: Vec<Vec3> = (0..10_000_u32)
             .map(|i| Vec3::new((i * 7919 % 97) as f32, (i * 104_729 % 89) as f32, (i % 3) as f32))
             .collect();
-        let order = order(points.iter().copied());
+        let order = order(points.len(), |i| points[i]);
         let mut seen = vec![false; points.len()];
         for &index in &order {
             assert!(!std::mem::replace(&mut seen[index as usize], true));
@@ -160,8 +246,12 @@ mod tests {
 
     #[test]
     fn points_without_an_extent_keep_their_order() {
-        assert!(order([].into_iter()).is_empty());
-        assert_eq!(order([Vec3::splat(3.0); 4].into_iter()), [0, 1, 2, 3]);
-        assert_eq!(order([Vec3::splat(1e30), Vec3::splat(-1e30)].into_iter()).len(), 2);
+        assert!(order(0, |_| Vec3::ZERO).is_empty());
+        assert_eq!(order(40, |_| Vec3::splat(3.0)), (0..40).collect::<Vec<_>>());
+        for size in [f32::MIN_POSITIVE, 1e-45, 1e30, f32::MAX] {
+            let mut order = order(40, |i| Vec3::splat(if i % 2 == 0 { size } else { -size }));
+            order.sort_unstable();
+            assert_eq!(order, (0..40).collect::<Vec<_>>());
+        }
     }
 }

@@ -69,7 +69,7 @@ fn append_along_curve(lights: &[PointLight], ranged: bool, ordered: &mut Vec<Poi
     let of_kind = |light: &PointLight| light.range.is_some() == ranged;
     let count = lights.iter().filter(|light| of_kind(light)).count();
     if count == lights.len() {
-        let order = hilbert::order(lights.iter().map(|light| light.position));
+        let order = hilbert::order(count, |index| lights[index].position);
         ordered.extend(order.into_iter().map(|index| lights[index as usize]));
     } else if count > 0 {
         let kind: Vec<_> = lights.iter().copied().filter(of_kind).collect();
@@ -155,6 +155,26 @@ mod tests {
                 }
             }
             assert_eq!(seen, vec![1; count]);
+        }
+    }
+
+    /// Surface of the spheres of all nodes that do not hold a light beyond 100 m.
+    fn surface(tree: &LightTree) -> f64 {
+        let (_, nodes) = tree.moments.split_last().unwrap();
+        nodes.iter().filter(|node| node.radius < 100.0).map(|node| f64::from(node.radius).powi(2)).sum()
+    }
+
+    #[test]
+    fn lights_far_from_all_others_leave_these_in_order() {
+        let mut all = lights(30_000);
+        all.iter_mut().for_each(|light| light.range = None);
+        let alone = surface(&LightTree::new(&all));
+        for far in [Vec3::splat(1e3), Vec3::X * 1e6, Vec3::NEG_Y * 1e6, Vec3::new(-1e9, 1e12, 3e5)] {
+            let mut with = all.clone();
+            with[17].position = far;
+            let tree = LightTree::new(&with);
+            let found = surface(&tree);
+            assert!(found < 1.2 * alone && found > alone / 1.2, "{far}: {found}, {alone} without");
         }
     }
 
