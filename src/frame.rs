@@ -59,9 +59,12 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, scene: &Arc<GpuScene>, settings: FrameSettings) -> Result<Self> {
+        Self::of(device, scene, settings, work(device, scene, &settings))
+    }
+
+    fn of(device: &Arc<Device>, scene: &Arc<GpuScene>, settings: FrameSettings, work: Work) -> Result<Self> {
         let inputs = PassInputs { device, scene, perspective: settings.perspective };
-        let work = work(device, scene, &settings);
-        let targets = Targets::new(device, settings.size, work.resolve)?;
+        let targets = Targets::new(device, settings.size, work.resolve, work.cut)?;
         let tiles = tiles_of(settings.size);
         let pass_names = pass_names(work);
         let mask = if work.masks { work.area.div_ceil(shared::AREA_MASK_LIGHTS) } else { 0 };
@@ -131,6 +134,11 @@ impl Frame {
             inputs.progress.inc(1);
             self.samples = index + 1;
             self.counters = self.readback.read()?[0];
+            if self.work.cut && self.counters.cut_given_up > 0 {
+                self.give_up_cuts()?;
+                inputs.progress.dec(u64::from(index) + 1);
+                return Ok(None);
+            }
             if self.cluster.is_some()
                 && let Some(capacity) = self.lists.capacity.grown(&self.counters)
             {
@@ -140,6 +148,13 @@ impl Frame {
             }
         }
         Ok(Some(watch.stop()))
+    }
+
+    /// From now on evaluates every light without a range: some pixel's cut asked for more steps than a draw may have.
+    fn give_up_cuts(&mut self) -> Result<()> {
+        let work = Work { cut: false, unranged: true, ..self.work };
+        *self = Self::of(&self.device.clone(), &self.scene.clone(), self.settings, work)?;
+        Ok(())
     }
 
     /// Makes room, and the passes that fold lists where this frame is the first to need them.
@@ -226,6 +241,11 @@ impl Frame {
     fn record_forward(&self, cmd: &mut Commands, sample: Sample) {
         let stamp = 2 + u32::from(self.cluster.is_some()) + u32::from(self.resolve.is_some());
         self.forward.record(cmd, &self.view(), sample, (&self.timestamps, stamp));
+        if let Some(cluster) = self.cluster.as_ref().filter(|_| self.work.cut) {
+            cmd.transition(&self.targets.hdr, Use::TransferRead, Use::ComputeRead);
+            cluster.record_given_up(cmd, &self.view(), tiles_of(self.settings.size));
+            cmd.transition(&self.targets.hdr, Use::ComputeRead, Use::TransferRead);
+        }
         cmd.memory_barrier(Use::ComputeWrite, Use::TransferRead);
         cmd.copy_buffer(&self.lists.counters, &self.readback);
         cmd.memory_barrier(Use::TransferWrite, Use::HostRead);
@@ -276,6 +296,9 @@ impl Frame {
         set.image(shared::frame::FRAME_CLUSTER_IDS, &self.targets.cluster_ids, Use::FragmentRead);
         set.image(shared::frame::FRAME_HDR, &self.targets.hdr, Use::InputRead);
         set.image(shared::frame::FRAME_SURFACE, &self.targets.surface, Use::ComputeRead);
+        if self.work.cut {
+            set.image(shared::frame::FRAME_HDR_READ, &self.targets.hdr, Use::ComputeRead);
+        }
         self.lists.bind(set);
     }
 }

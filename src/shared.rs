@@ -261,6 +261,8 @@ shared! {
         SPEC_RESOLVED = 44;
         /// Some lists are folded.
         SPEC_FOLDED = 60;
+        /// One of how many blocks of pixels is shaded.
+        SPEC_ONE_IN = 61;
         /// Clusters note their pixels.
         SPEC_NOTE_PIXELS = 47;
         /// Clusters note the variants of their pixels.
@@ -292,6 +294,8 @@ shared! {
             /// What the prepass notes of each pixel's surface: the interpolated normal's bits; material and variant, see
             /// `SURFACE_MATERIAL_BITS`. 0 where a light is seen, or nothing.
             FRAME_SURFACE = 10: Sampled in Compute;
+            /// Scene-linear colour; its fourth value is not 0 where a pixel's cut was given up.
+            FRAME_HDR_READ = 11: Sampled in Compute;
         }
         /// Descriptors of a scene.
         scene = 1 {
@@ -414,6 +418,8 @@ shared! {
             cut_share: float;
             /// Largest squared radius of a node, of the scale on which a lobe changes.
             cut_lobe2: float;
+            /// Largest error at a pixel's horizon, as a share of the pixel's irradiance.
+            cut_horizon: float;
         }
         /// Push constants of a draw.
         DrawConstants {
@@ -472,8 +478,8 @@ shared! {
             cut_power: float;
             /// Relative error that the cut is estimated to have.
             cut_error: float;
-            /// Nodes that the cut's walk met.
-            cut_visits: uint;
+            /// Largest error of a node in the cut: irradiance at normal incidence.
+            cut_limit: float;
             /// Its pixels.
             pixel_count: uint;
         }
@@ -534,6 +540,8 @@ shared! {
             cut_entries: uint;
             /// Longest cut.
             cut_longest: uint;
+            /// Pixels that did not come to the end of theirs.
+            cut_given_up: uint;
         }
         /// A node of the light tree: a box that holds its lights' spheres.
         LightNode {
@@ -554,8 +562,8 @@ shared! {
             radius: float;
             /// Power of the lights.
             power: float;
-            /// Relative error at distance d, as half floats a | b << 16: a·(radius/d) + b·(radius/d)³.
-            errors: uint;
+            /// Relative error at distance d: this times (radius/d)³.
+            error: float;
             /// Next node where this one is not opened; of a leaf, the next one.
             skip: uint;
             /// First of the lights.

@@ -30,11 +30,11 @@ pub struct Targets {
 }
 
 impl Targets {
-    /// Makes the images; that of `surface`s only where something reads it.
+    /// Makes the images; that of `surface`s only where something reads it. With `cuts`, compute looks at the colour.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
-    pub fn new(device: &Arc<Device>, size: [u32; 2], surface: bool) -> Result<Self> {
+    pub fn new(device: &Arc<Device>, size: [u32; 2], surface: bool, cuts: bool) -> Result<Self> {
         let image = |name, format, uses: &[Use]| {
             Image::new(device, &ImageDescription { name, format, size, layers: None, mips: 1, uses })
         };
@@ -49,6 +49,9 @@ impl Targets {
         let mut hdr = vec![Use::ColorWrite, Use::InputRead, Use::TransferRead];
         if surface {
             hdr.extend([Use::TransferWrite, Use::ComputeWrite]);
+        }
+        if cuts {
+            hdr.push(Use::ComputeRead);
         }
         Ok(Self {
             surface: surface_image(device, surface.then_some(size))?,

@@ -39,18 +39,19 @@ struct Cut {
     uint leaves;
     uint end;
     float power;  // Σ power/d² at the cluster
+    float limit;  // largest error of a node, in its units
 };
 
 Cut cut_at(ivec2 pixel) {
     uint id = cluster_at(pixel);
-    if (id >= frame.cluster_capacity) return Cut(0u, 0u, 0u, 0u, 0.0);
+    if (id >= frame.cluster_capacity) return Cut(0u, 0u, 0u, 0u, 0.0, 0.0);
     uint texel = clusters[id].cut;
     uint roots = texel + (clusters[id].cut_nodes + 3u) / 4u;
     uint leaves = roots + (clusters[id].cut_roots + 3u) / 4u;
     uint end = leaves + (clusters[id].cut_leaves + 3u) / 4u;
     // As with lists.
-    if (end > frame.list_capacity) return Cut(0u, 0u, 0u, 0u, 0.0);
-    return Cut(texel, roots, leaves, end, clusters[id].cut_power);
+    if (end > frame.list_capacity) return Cut(0u, 0u, 0u, 0u, 0.0, 0.0);
+    return Cut(texel, roots, leaves, end, clusters[id].cut_power, clusters[id].cut_limit);
 }
 
 // Nodes and lights without a range that a pixel evaluates; what it opens counts as one.

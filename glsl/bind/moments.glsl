@@ -15,7 +15,7 @@ struct MomentHead {
     vec3 center;
     float radius;
     float power;
-    vec2 errors;
+    float error;
     uint skip;
     uint first;
 };
@@ -24,7 +24,7 @@ MomentHead moment_head(uint index) {
     ivec2 texel = moment_texel(index);
     vec4 place = uintBitsToFloat(texelFetch(light_nodes, texel, 0));
     uvec4 rest = texelFetch(light_nodes, texel + ivec2(1, 0), 0);
-    return MomentHead(place.xyz, place.w, uintBitsToFloat(rest.x), unpackHalf2x16(rest.y), rest.z, rest.w);
+    return MomentHead(place.xyz, place.w, uintBitsToFloat(rest.x), uintBitsToFloat(rest.y), rest.z, rest.w);
 }
 
 // Centre and radius.

@@ -39,7 +39,8 @@ float light_at(vec3 lower, vec3 upper, inout uint visits) {
     float size2 = box_radius2(lower, upper);
     float sum = 0.0;
     uint index = 0u;
-    while (index < frame.moment_nodes) {
+    // A walk that is given up has found less light than there is: the cut then is finer than it has to be.
+    while (index < frame.moment_nodes && visits < MAX_VISITS / 2u) {
         MomentHead node = moment_head(index);
         float r2 = node.radius * node.radius;
         float d2 = box_distance2(lower, upper, node.center);
@@ -61,7 +62,7 @@ bool cut(vec3 lower, vec3 upper, float limit, inout uint visits) {
     while (index < frame.moment_nodes && visits < MAX_VISITS) {
         MomentHead node = moment_head(index);
         float d2 = box_distance2(lower, upper, node.center);
-        float error = node_error(node.power, node.radius, node.errors, d2);
+        float error = node_error(node.power, node.radius, node.error, d2);
         bool dark = node.power == 0.0;
         bool fits = dark || node_fits(node.radius, d2, error, frame.cut_open2, limit);
         bool leaf = !fits && is_leaf(index, node);

@@ -60,7 +60,7 @@ void main() {
         return;
     }
     uint visits = 0u;
-    cut(clusters[id].lower, clusters[id].upper, frame.cut_share * clusters[id].cut_power, visits);
+    cut(clusters[id].lower, clusters[id].upper, clusters[id].cut_limit, visits);
     finish(nodes, frame.moment_nodes);
     finish(roots, frame.moment_nodes);
     finish(leaves, frame.light_count);

@@ -36,7 +36,7 @@ void write_counters(uint ids, uint parents, uint occupied) {
     uvec2 of_parents = groups(min(parents, frame.parent_capacity), 1u);
     // Of lists, should there be none.
     counters = Counters(of_clusters.x, of_clusters.y, 1u, of_parents.x, of_parents.y, 1u, 0u, 1u, 1u, parents, ids,
-                        occupied, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+                        occupied, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 }
 
 void main() {

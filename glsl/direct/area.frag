@@ -45,5 +45,5 @@ void main() {
         if (LIGHT_MASKS) lights &= area_mask(cluster, word);
         sum += word_reflected(receiver, word << 5, lights);
     }
-    radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
+    radiance = vec4(min(sum, MAX_RADIANCE), 0.0);
 }

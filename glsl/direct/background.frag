@@ -6,4 +6,4 @@
 
 layout(location = 0) out vec4 radiance;
 
-void main() { radiance = vec4(frame.background, 1.0); }
+void main() { radiance = vec4(frame.background, 0.0); }

@@ -23,5 +23,5 @@ void main() {
     }
     // The back of a line is its inside, which is not drawn.
     bool shines = gl_FrontFacing || light.two_sided || light.kind == AREA_LINE;
-    radiance = vec4(shines ? min(emitted, vec3(1e30)) : vec3(0.0), 1.0);
+    radiance = vec4(shines ? min(emitted, vec3(1e30)) : vec3(0.0), 0.0);
 }

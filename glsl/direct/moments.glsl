@@ -21,8 +21,21 @@ const float MIN_BENT = 1e-6;
 // Whether the BSDF is constant; known when the pipeline is compiled.
 bool bsdf_is_constant() { return MODEL == MODEL_MATTE && !ROUGH_MATTE; }
 
-// Irradiance at n·u = 1 that the node would cause, over its intensity, by channel; `bent` is where it comes from in the mean.
-vec3 node_cosines(Surface s, Moments m, vec3 offset, float inverse2, out vec3 bent) {
+// What a node makes of a pixel.
+struct NodeLight {
+    vec3 radiance;
+    float irradiance;  // mean of the channels
+    float horizon;  // Standard deviation of n·u among its lights times their irradiance at n·u = 1, where the horizon cuts them
+};
+
+// Irradiance over a node's intensity, times its squared distance.
+struct NodeCosines {
+    vec3 channels;
+    vec3 bent;  // where it comes from in the mean
+    float horizon;  // standard deviation of n·u where the horizon cuts it, else 0
+};
+
+NodeCosines node_cosines(Surface s, Moments m, vec3 offset, float inverse2) {
     float inverse = sqrt(inverse2);
     vec3 u = offset * inverse;
     vec3 n = s.world_from_local[2];
@@ -33,31 +46,39 @@ vec3 node_cosines(Surface s, Moments m, vec3 offset, float inverse2, out vec3 be
     // Lights above a surface often lie just above it: no wider than they reach below their centre, unless that is through
     // the surface.
     vec3 low = max(n * m.below, -n * m.above);
+    vec3 high = max(n * m.above, -n * m.below);
     float depth = (low.x + low.y + low.z) * inverse;
+    float height = (high.x + high.y + high.z) * inverse;
     float through = clamp(4.0 * (depth - mu) / max(depth, MIN_BENT), 0.0, 1.0);
-    float wide = UNIFORM2 * dot(n, sn);
+    float variance = max(dot(n, sn), 0.0);
+    float wide = UNIFORM2 * variance;
     vec2 above = above_horizon(mu, lerp(min(wide, depth * depth), wide, through));
     float cosine = above.x * (1.0 + 7.5 * dot(u, su) - 1.5 * trace) - 3.0 * dot(n, su) * above.y;
     vec3 slope = (n - 3.0 * mu * u) * (above.y * inverse);
-    bent = vec3(0.0, 0.0, 1.0);
+    vec3 bent = vec3(0.0, 0.0, 1.0);
     if (!bsdf_is_constant()) {
         // c + S∇f/f: of the product of BSDF and irradiance this keeps the gradients' part. Without it Oren-Nayar is 0.7 % too
         // bright, with it within 0.2 %.
         float least = max(above.x, MIN_BENT);
         bent = (u + (sn * above.y - 3.0 * above.x * su) / least) * s.world_from_local;
         bent = normalize(vec3(bent.xy, max(bent.z, least)));
+        bent.z = max(bent.z, MIN_BENT);
     }
-    return max(vec3(max(cosine, 0.0)) + m.shifts * slope, vec3(0.0));
+    vec3 channels = max(vec3(max(cosine, 0.0)) + m.shifts * slope, vec3(0.0));
+    return NodeCosines(channels, bent, mu < depth && mu > -height ? sqrt(variance) : 0.0);
 }
 
-vec3 reflected_node(Surface s, uint index) {
+NodeLight reflected_node(Surface s, uint index) {
     Moments m = moments_at(index);
     vec3 offset = m.center - s.position;
     float inverse2 = 1.0 / max(dot(offset, offset), TINY);
-    vec3 bent;
-    vec3 cosines = node_cosines(s, m, offset, inverse2, bent);
-    // The bent direction's cosine is divided out again.
-    return bsdf_eval_cos(s.bsdf, bent) * (m.intensity * cosines * (inverse2 / bent.z));
+    NodeCosines cosines = node_cosines(s, m, offset, inverse2);
+    // Finite, or a product with 0 would be none.
+    vec3 power = min(m.intensity * inverse2, MAX_RADIANCE);
+    float mean = (power.r + power.g + power.b) / 3.0;
+    // The bent direction's cosine is divided out again; first, for it may be as small as the light is strong.
+    vec3 reflectance = bsdf_eval_cos(s.bsdf, cosines.bent) * (cosines.channels / cosines.bent.z);
+    return NodeLight(reflectance * power, dot(cosines.channels, power) / 3.0, cosines.horizon * mean);
 }
 
 #endif

@@ -29,5 +29,5 @@ void main() {
     if (FOLDED) {
         for (uint i = 0u; i < list.nodes; ++i) sum += reflected_node(surface, end + i * FOLD_TEXELS);
     }
-    radiance = vec4(min(sum, MAX_RADIANCE), 1.0);
+    radiance = vec4(min(sum, MAX_RADIANCE), 0.0);
 }

@@ -4,12 +4,12 @@
 #define LIB_CUT_GLSL
 
 // A node's error at squared distance d2, in W·sr⁻¹·m⁻²: its irradiance times its relative error.
-float node_error(float power, float radius, vec2 errors, float d2) {
+float node_error(float power, float radius, float error, float d2) {
     precise float inverse = inversesqrt(d2);
     precise float x = radius * inverse;
-    precise float relative = x * (errors.x + errors.y * x * x);
-    precise float error = relative * (power * inverse * inverse);
-    return error;
+    precise float relative = error * (x * x * x);
+    precise float off = relative * (power * inverse * inverse);
+    return off;
 }
 
 // Whether all of a node is far enough, and its error within the limit. False where the distance is 0.

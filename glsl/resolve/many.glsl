@@ -98,7 +98,7 @@ void main() {
         }
     }
 #define STORE(i) if (mine[i]) { \
-        vec4 radiance = vec4(min(sums[i], MAX_RADIANCE), 1.0); \
+        vec4 radiance = vec4(min(sums[i], MAX_RADIANCE), 0.0); \
         imageStore(hdr, pixels[i], imageLoad(hdr, pixels[i]) + radiance); \
     }
     EACH(STORE)

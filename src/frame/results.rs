@@ -7,6 +7,7 @@ use crate::image::HdrImage;
 use crate::passes::PassInputs;
 use crate::passes::aov::{Aov, Quantity};
 use crate::passes::cluster::ClusterTargets;
+use crate::passes::cut_check::CutCheck;
 use crate::passes::floors::{FloorPass, Floors};
 use crate::passes::pairs::{PairCount, PairPass};
 use crate::shared::Counters;
@@ -90,8 +91,9 @@ impl Frame {
         if self.cluster.is_some() { self.counters } else { Counters::default() }
     }
 
-    /// Estimated mean relative error of the picture last rendered, from the cuts of the tree over lights without a range: over
-    /// the pixels with a surface. 0 where every light that reaches a pixel is evaluated.
+    /// Estimated mean relative error of the picture last rendered, for what nodes of the tree over lights without a range
+    /// stood for: measured against every light at some of the pixels with a surface, or all of a small picture. 0 where every
+    /// light that reaches a pixel is evaluated.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
@@ -99,12 +101,14 @@ impl Frame {
         if !self.work.cut {
             return Ok(0.0);
         }
-        let clusters = self.lists.clusters.fetch(Use::ComputeWrite)?;
-        let occupied = &clusters[..clusters.len().min(self.counters.clusters as usize)];
-        let pixels: f64 = occupied.iter().map(|cluster| f64::from(cluster.pixel_count)).sum();
-        let errors =
-            occupied.iter().map(|cluster| f64::from(cluster.pixel_count) * f64::from(cluster.cut_error));
-        Ok(errors.sum::<f64>() / pixels.max(1.0))
+        let inputs =
+            PassInputs { device: &self.device, scene: &self.scene, perspective: self.settings.perspective };
+        let check = CutCheck::new(&inputs, &self.targets)?;
+        self.device.run("cut check", |cmd| {
+            check.record(cmd, &self.view());
+            Ok(())
+        })?;
+        check.relative_error(&self.hdr()?.pixels)
     }
 
     /// The cluster pass's results, for tests of the lists.

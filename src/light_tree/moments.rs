@@ -77,7 +77,7 @@ fn node(sums: &Sums, lights: &[PointLight], first: u32) -> MomentNode {
         center: center.to_array(),
         radius: radius as f32,
         power: sums.power() as f32,
-        errors: halves(sums.errors(radius)),
+        error: sums.error(radius) as f32,
         skip: 0,
         first,
         diagonal: diagonal.as_vec3().to_array(),
@@ -91,19 +91,6 @@ fn node(sums: &Sums, lights: &[PointLight], first: u32) -> MomentNode {
         extent_z: extents(2),
         count: lights.len() as u32,
     }
-}
-
-/// Two positive numbers as half floats, rounded up; at least 2⁻¹⁴ unless 0, at most 65504.
-fn halves(values: [f64; 2]) -> u32 {
-    let half = |value: f64| {
-        if value == 0.0 {
-            return 0;
-        }
-        let bits = (value.clamp(2.0_f64.powi(-14), 65504.0) as f32).to_bits();
-        // The exponent's bias goes from 127 to 15, the mantissa from 23 bits to 10.
-        (bits.div_ceil(1 << 13) - (112 << 10)).min(0x7bff)
-    };
-    half(values[0]) | half(values[1]) << 16
 }
 
 /// Two numbers in [0, 1] as 16 bits each, rounded up.

@@ -207,6 +207,7 @@ struct Cuts {
     count: ComputePipeline,
     scan: ComputePipeline,
     write: ComputePipeline,
+    given_up: ComputePipeline,
 }
 
 impl ClusterPass {
@@ -234,6 +235,7 @@ impl ClusterPass {
                 count: step(shaders::CLUSTER_CUT_COUNT_COMP)?,
                 scan: step(shaders::CLUSTER_SCAN_CUTS_COMP)?,
                 write: step(shaders::CLUSTER_CUT_WRITE_COMP)?,
+                given_up: step(shaders::CLUSTER_GIVEN_UP_COMP)?,
             })
         };
         let notes = Specialization::default()
@@ -253,6 +255,14 @@ impl ClusterPass {
             cuts: cut.then(of_cuts).transpose()?,
             area: masks.then(|| step(shaders::CLUSTER_AREA_COMP)).transpose()?,
         })
+    }
+
+    /// Behind the picture, its colour in use [`Use::ComputeRead`]: counts the pixels whose cuts were given up.
+    pub fn record_given_up(&self, cmd: &mut Commands, view: &View<'_>, [x, y]: [u32; 2]) {
+        let Some(cuts) = &self.cuts else { return };
+        cmd.memory_barrier(Use::ComputeWrite, Use::ComputeWrite);
+        cmd.bind_compute(&cuts.given_up, &[view.frame, view.scene.set.get(0)]);
+        cmd.dispatch([x, y, 1]);
     }
 
     /// Records the steps, with what each hands to the next.

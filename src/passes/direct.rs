@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// Lights of one draw; the draws of a surface add up. lavapipe ends a shader's loops, without a word, after 65,535
 /// iterations, and a GPU's watchdog ends draws that last seconds.
-const LIGHTS_PER_DRAW: u32 = 1 << 15;
+pub(super) const LIGHTS_PER_DRAW: u32 = 1 << 15;
 
 /// Pipelines of the subpass; absent where the scene has no use for them.
 pub struct Direct {

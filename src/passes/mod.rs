@@ -5,6 +5,7 @@
 
 pub mod aov;
 pub mod cluster;
+pub mod cut_check;
 pub mod direct;
 pub mod floors;
 pub mod forward;

@@ -52,7 +52,7 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             _ if shader.stage != Stage::Compute => None,
             // One workgroup per tile: one invocation per column, or per pixel.
             "cluster/slices.comp" | "cluster/bounds.comp" => Some([tile, 1, 1]),
-            "cluster/pairs.comp" | "cluster/floors.comp" => Some([tile, tile, 1]),
+            "cluster/pairs.comp" | "cluster/floors.comp" | "cluster/given_up.comp" => Some([tile, tile, 1]),
             "cluster/bands.comp" => Some([sized("BANDS"), 1, 1]),
             "cluster/gather.comp" => Some([sized("GATHER_LANES"), 1, 1]),
             "cluster/fold.comp" => Some([sized("FOLD_NODES"), 1, 1]),

@@ -1,6 +1,6 @@
 //! Lights without a range through the cuts of their tree, against brute force.
 
-use crate::cut_worlds::{KINDS, Kind, lights, matte, smooth, world};
+use crate::cut_worlds::{KINDS, Kind, TURNS, glossy, lights, matte, seeded, smooth, turned, world};
 use crate::support::{FIVE_MATERIALS, Rig};
 use amas::gpu::Use;
 use amas::shared::NO_CLUSTER;
@@ -73,16 +73,20 @@ fn assert_estimate(found: &Figures, context: &str) {
 
 const LIGHT_ERRORS: [f32; 4] = [0.05, 0.02, 0.01, 0.005];
 
+/// Three seeds of each, each turned otherwise: the order of the lights along their curve, and with it the tree, is another.
 #[test]
 fn seven_scenes_of_thirty_thousand_lights() {
     for kind in KINDS {
-        println!("{kind:?}");
-        let world = world(&matte(0), lights(kind, 30_000));
-        let brute = brute(&world);
-        for light_error in LIGHT_ERRORS {
-            let found = figures(&world, &brute, light_error);
-            assert_kept(&found, light_error, &format!("{kind:?}"));
-            assert_estimate(&found, &format!("{kind:?} at {light_error}"));
+        for (seed, turn) in TURNS.into_iter().enumerate() {
+            println!("{kind:?}, seed {seed}");
+            let world = turned(world(&matte(0), seeded(kind, 30_000, seed as u32)), turn);
+            let brute = brute(&world);
+            for light_error in LIGHT_ERRORS {
+                let found = figures(&world, &brute, light_error);
+                let context = format!("{kind:?}, seed {seed}, at {light_error}");
+                assert_kept(&found, light_error, &context);
+                assert_estimate(&found, &context);
+            }
         }
     }
 }
@@ -109,8 +113,23 @@ fn rough_and_smooth_materials() {
             let world = world(&text, lights(kind, 10_000));
             let brute = brute(&world);
             for light_error in [0.02, 0.005] {
-                assert_kept(&figures(&world, &brute, light_error), light_error, name);
+                let found = figures(&world, &brute, light_error);
+                assert_kept(&found, light_error, name);
+                assert_estimate(&found, name);
             }
+        }
+    }
+}
+
+/// What lobes add to the error is in the estimate.
+#[test]
+fn the_estimate_covers_glossy_surfaces() {
+    for (material, alpha) in [("plastic", 0.4), ("plastic", 0.05), ("metal", 0.4), ("metal", 0.05)] {
+        println!("{material} of alpha {alpha}");
+        let world = world(&glossy(material, alpha), lights(Kind::Uniform, 20_000));
+        let brute = brute(&world);
+        for light_error in [0.05, 0.01] {
+            assert_estimate(&figures(&world, &brute, light_error), material);
         }
     }
 }
@@ -243,6 +262,15 @@ fn hard_cases_stay_finite() {
         all.iter_mut().for_each(|light| (light.position, light.intensity) = (place, light.intensity * scale));
         all
     };
+    let in_plane = |size: f32| {
+        let mut all = lights(Kind::Uniform, 5000);
+        for (i, light) in all.iter_mut().enumerate() {
+            let height = if i % 3 == 0 { 1e-6 * light.position.y } else { 0.0 };
+            light.position = (light.position * Vec3::new(1.0, 0.0, 1.0)).with_y(height) * size;
+            light.intensity *= if i % 5 == 0 { 1e18 } else { 1.0 };
+        }
+        all
+    };
     let mut extreme = lights(Kind::Uniform, 600);
     extreme
         .iter_mut()
@@ -251,6 +279,9 @@ fn hard_cases_stay_finite() {
     let cases = [
         ("on the floor", at(Vec3::new(0.0, 0.0, 1.0), 1.0)),
         ("at the eye", at(Vec3::new(0.0, 1.5, 5.0), 1.0)),
+        ("in the floor's plane, near", in_plane(0.3)),
+        ("in the floor's plane, far", in_plane(1e4)),
+        ("in the floor's plane, at the end of the world", in_plane(1e12)),
         ("dark", at(Vec3::ONE, 0.0)),
         ("extreme", extreme),
         ("one light", lights(Kind::Uniform, 1)),
@@ -268,6 +299,18 @@ fn hard_cases_stay_finite() {
     let world = world(&text, lights(Kind::Uniform, 5000));
     let found = figures(&world, &brute(&world), 0.02);
     assert_kept(&found, 0.02, "orthographic");
+}
+
+/// More lights than a tile has pixels, all in one cluster.
+#[test]
+fn all_lights_within_one_cluster() {
+    let mut all = lights(Kind::Uniform, 60_000);
+    for light in &mut all {
+        light.position = Vec3::new(0.2, 0.05, 2.0) + 0.01 * light.position;
+    }
+    let world = world(&matte(0), all);
+    let found = figures(&world, &brute(&world), 0.002);
+    assert_kept(&found, 0.002, "one cluster");
 }
 
 /// An error of 0 or next to it evaluates every light, and so does a scene with few of them.

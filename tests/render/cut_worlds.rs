@@ -3,7 +3,7 @@
 use crate::support::{FIVE_MATERIALS, scene};
 use amas::Scene;
 use amas::scene::PointLight;
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 
 /// The generator of `scene::points`.
 struct Lcg(u32);
@@ -47,7 +47,12 @@ pub(crate) const KINDS: [Kind; 7] = [
 
 /// Lights around [`FIVE_MATERIALS`].
 pub(crate) fn lights(kind: Kind, count: usize) -> Vec<PointLight> {
-    let mut rng = Lcg(kind as u32 + 1);
+    seeded(kind, count, 0)
+}
+
+/// Other lights for every seed.
+pub(crate) fn seeded(kind: Kind, count: usize, seed: u32) -> Vec<PointLight> {
+    let mut rng = Lcg(kind as u32 + 1 + 1000 * seed);
     let sphere = |rng: &mut Lcg, i: usize| {
         let around = rng.within([-1.0; 3], [1.0; 3]).normalize_or(Vec3::Y) * (0.42 + 0.08 * rng.next());
         let place = around + Vec3::new((i % 5) as f32 * 0.75 - 1.5, 0.4, 0.0);
@@ -97,6 +102,20 @@ pub(crate) fn matte(sigma: u32) -> String {
     text
 }
 
+/// All of one glossy material, `plastic` or `metal`.
+pub(crate) fn glossy(material: &str, alpha: f32) -> String {
+    let mut text = FIVE_MATERIALS
+        .replace(
+            "roughness = 0.4\n[[material]]\nname = \"metal",
+            &format!("alpha = {alpha}\n[[material]]\nname = \"metal"),
+        )
+        .replace("alpha = [0.2, 0.4]", &format!("alpha = {alpha}"));
+    for name in ["matte", "plastic", "metal", "substrate", "principled"] {
+        text = text.replace(&format!("material = \"{name}\""), &format!("material = \"{material}\""));
+    }
+    text
+}
+
 /// Spheres with narrow lobes.
 pub(crate) fn smooth() -> String {
     FIVE_MATERIALS
@@ -106,4 +125,28 @@ pub(crate) fn smooth() -> String {
         )
         .replace("alpha = [0.2, 0.4]", "alpha = 0.1")
         .replace("roughness = 0.5\nanisotropic = 0.5", "alpha = 0.02")
+}
+
+/// The proper rotations that turn axes into axes, as columns: the same world to a viewer, another order to the lights.
+pub(crate) const TURNS: [[Vec3; 3]; 3] =
+    [[Vec3::X, Vec3::Y, Vec3::Z], [Vec3::Y, Vec3::Z, Vec3::X], [Vec3::X, Vec3::NEG_Z, Vec3::Y]];
+
+/// The world turned about the origin.
+pub(crate) fn turned(mut world: Scene, columns: [Vec3; 3]) -> Scene {
+    let turn = Mat3::from_cols(columns[0], columns[1], columns[2]);
+    let apply = |v: [f32; 3]| (turn * Vec3::from(v)).to_array();
+    for vertex in world.meshes.iter_mut().flat_map(|mesh| &mut mesh.vertices) {
+        vertex.position = apply(vertex.position);
+        vertex.normal = apply(vertex.normal);
+        let [x, y, z, handed] = vertex.tangent;
+        let [x, y, z] = apply([x, y, z]);
+        vertex.tangent = [x, y, z, handed];
+    }
+    for camera in &mut world.cameras {
+        for v in [&mut camera.position, &mut camera.target, &mut camera.up] {
+            *v = turn.as_dmat3() * *v;
+        }
+    }
+    world.point_lights.iter_mut().for_each(|light| light.position = turn * light.position);
+    world
 }

@@ -11,9 +11,6 @@
 use crate::scene::PointLight;
 use glam::DVec3;
 
-/// Error at the horizon: the share of a node's standard deviation, seen from the surface, by which a cosine that is
-/// clamped within the node is off. Found by simulation, as are the next.
-const KINK: f64 = 0.04;
 /// Share of the third moment, of what colours' second moments differ by, and of the fourth that a pixel sees: the mean
 /// over directions and the partial cancellation among nodes.
 const SKEW: f64 = 0.8;
@@ -108,13 +105,13 @@ impl Sums {
         [0, 1, 2].map(|c| self.first[c] * reciprocal(self.intensity[c]))
     }
 
-    /// Relative errors of a node of that radius: the coefficients of radius/d and of (radius/d)³.
-    pub(super) fn errors(&self, radius: f64) -> [f64; 2] {
+    /// Relative error of a node of that radius: the coefficient of (radius/d)³. Where the horizon cuts a node each pixel looks
+    /// for itself (glsl/direct/cut.frag).
+    pub(super) fn error(&self, radius: f64) -> f64 {
         if radius <= 0.0 || self.power() <= 0.0 {
-            return [0.0; 2];
+            return 0.0;
         }
         let [diagonal, mixed] = self.covariance();
-        let deviation = diagonal.element_sum().sqrt();
         let colors = (0..3).map(|c| {
             let scale = reciprocal(self.intensity[c]);
             // A channel that is black has nothing to be wrong.
@@ -125,8 +122,7 @@ impl Sums {
         let colors = colors.fold(0.0, f64::max) / radius.powi(2);
         let third = triple_norm(&self.third) / self.power() / radius.powi(3);
         let fourth = self.fourth / self.power() / radius.powi(4);
-        let skew = SKEW * (colors * REFERENCE + third + fourth / REFERENCE);
-        [KINK * deviation / radius, skew]
+        SKEW * (colors * REFERENCE + third + fourth / REFERENCE)
     }
 }
 
