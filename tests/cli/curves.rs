@@ -77,7 +77,7 @@ fn many_lights() {
     let caps = of("max_lights_per_cluster");
     assert!(caps.windows(2).all(|pair| pair[0][1] >= pair[1][1]), "{caps:?}");
     assert!(caps.last().unwrap()[1] < 1e-5, "{caps:?}");
-    assert_eq!(of("lights").iter().map(|point| point[0]).collect::<Vec<_>>(), [64.0, 4096.0]);
+    assert_eq!(of("lights").iter().map(|point| point[0]).collect::<Vec<_>>(), [1024.0, 4096.0]);
     for sweep in ["light_error", "max_lights_per_cluster", "lights"] {
         assert!(printed.contains(sweep), "{printed}");
     }

@@ -183,7 +183,8 @@ impl Viewer<'_> {
             report::warn_of_overflow(&counters, picture.scene.render.max_lights_per_cluster);
             self.warned = true;
         }
-        if moves || !shown || change > Change::Nothing || !picture.is_complete() || self.remaining.is_some() {
+        let unfinished = !picture.is_complete() || self.gui.is_behind();
+        if moves || !shown || change > Change::Nothing || unfinished || self.remaining.is_some() {
             stage.window.request_redraw();
         }
         Ok(())

@@ -20,8 +20,9 @@ pub(super) struct Figures {
     area_lights: u32,
     /// Samples so far, and of the picture at rest.
     samples: [u32; 2],
-    /// Of what folds and cuts cause, relative.
-    error: f64,
+    /// Of what folds and cuts cause, relative; `None` until the picture rests, because measuring it takes as long as a
+    /// frame or more.
+    error: Option<f64>,
     memory: f64,
 }
 
@@ -30,7 +31,6 @@ impl Figures {
     pub(super) fn new(device: &Device, picture: &Picture) -> Result<Self> {
         let (info, frame) = (device.info(), &picture.frame);
         let counters = frame.counters();
-        let folds = f64::from(f32::from_bits(counters.fold_error));
         Ok(Self {
             device: info.name.clone(),
             driver: info.driver.clone(),
@@ -39,10 +39,23 @@ impl Figures {
             point_lights: frame.scene().lights.lights.len(),
             area_lights: frame.scene().area.count,
             samples: [frame.samples(), picture.samples()],
-            error: frame.light_error()? + folds,
+            error: None,
             memory: device.peak_memory() as f64 / MEGABYTE,
             counters,
         })
+    }
+
+    /// Whether the error of the picture is known.
+    pub(super) fn is_estimated(&self) -> bool {
+        self.error.is_some()
+    }
+
+    /// Estimates it, unless it is known.
+    pub(super) fn estimate(&mut self, picture: &Picture) -> Result<()> {
+        if self.error.is_none() {
+            self.error = Some(picture.frame.light_error()?);
+        }
+        Ok(())
     }
 
     pub(super) fn show(&self, ui: &mut Ui) {
@@ -52,9 +65,10 @@ impl Figures {
         let lists = format!("{} in all, {} at most", counters.entries, counters.longest);
         let folded = format!("{} lights, {} clusters", counters.folded, counters.overflowed);
         let cuts = format!("{} in all, {} at most", counters.cut_entries, counters.cut_longest);
+        let error = self.error.map_or("once it rests".into(), |error| format!("{:.3} %", 100.0 * error));
         let rows = [
             ("samples", format!("{} of {}", self.samples[0], self.samples[1])),
-            ("estimated error", format!("{:.3} %", 100.0 * self.error)),
+            ("estimated error", error),
             ("lights", format!("{} points, {} areas", self.point_lights, self.area_lights)),
             ("clusters", format!("{} of {x} × {y} × {z}", counters.occupied)),
             ("lists", lists),

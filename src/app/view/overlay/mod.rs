@@ -103,6 +103,11 @@ impl Gui {
         open || self.shows_view() || self.compare.mode != Mode::Off
     }
 
+    /// Whether a picture at rest is to be drawn once more, with its error.
+    pub(super) fn is_behind(&self) -> bool {
+        self.panels && self.figures.as_ref().is_some_and(|figures| !figures.is_estimated())
+    }
+
     /// Whether a debug view is shown in the picture's place.
     pub(super) fn shows_view(&self) -> bool {
         self.views.shown().is_some()
@@ -201,6 +206,7 @@ impl Gui {
         camera: &Camera,
         timings: Option<Timings>,
     ) -> Result<(Arc<Image>, Change)> {
+        let rests = timings.is_none() && picture.is_complete();
         if let Some(timings) = timings {
             self.history.add(&timings);
             self.figures = None;
@@ -212,6 +218,9 @@ impl Gui {
         }
         if self.panels && self.figures.is_none() {
             self.figures = Some(Figures::new(&stage.device, picture)?);
+        }
+        if self.panels && rests && let Some(figures) = &mut self.figures {
+            figures.estimate(picture)?;
         }
         let mut tools = match self.tools.take().filter(|tools| tools.encoding == stage.encoding()) {
             Some(tools) => tools,
