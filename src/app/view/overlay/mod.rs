@@ -219,7 +219,10 @@ impl Gui {
         if self.panels && self.figures.is_none() {
             self.figures = Some(Figures::new(&stage.device, picture)?);
         }
-        if self.panels && rests && let Some(figures) = &mut self.figures {
+        if self.panels
+            && rests
+            && let Some(figures) = &mut self.figures
+        {
             figures.estimate(picture)?;
         }
         let mut tools = match self.tools.take().filter(|tools| tools.encoding == stage.encoding()) {
