@@ -1,7 +1,7 @@
 //! The thread that loads.
 //!
-//! The same one for as long as nothing is cancelled, because glibc gives threads heaps of their own: with a new thread each
-//! time, what 50 loads left in their gaps made a window of 310 MB one of 530.
+//! The same one for as long as nothing is cancelled, because glibc gives threads heaps of their own, each with its own gaps.
+//! It is not all that lets memory grow over the first reloads of a scene (182 to 627 MB over 50, measured with it).
 
 use std::sync::mpsc::{Sender, channel};
 use std::thread::JoinHandle;
