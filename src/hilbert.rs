@@ -3,7 +3,7 @@
 //! 1. Keys have 12 bits an axis, of which the sort reads 32 in all. They are Skilling's (2004, «Programming the Hilbert
 //!    curve»), made three levels at a time by a table of the states that his algorithm can be in.
 //! 2. A stable partition by the first 12 bits leaves runs that a core's own cache holds; each is partitioned by as many
-//!    more bits as it has points for, and again where points crowd, until [`FEW`] are left, which are compared.
+//!    more bits as it has points for, and again where points crowd, until 8 are left, which are compared.
 //!
 //! CPU ms of 2²⁰ points strewn evenly, on one thread: bounds 3, keys 8, sort 10; a radix sort of all 30 bits and tables of
 //! two levels took 51. Morton's keys cost as much within 2 %, and boxes of 32 points in their order have 2.7 times the
