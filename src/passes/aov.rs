@@ -4,14 +4,12 @@
 //! normal turned to the viewer, the material −1, and no lights.
 
 use super::luminaires::Luminaires;
+use super::sheet::{Sheet, sheet_pass};
 use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
-use crate::gpu::{
-    Attachment, Blend, Commands, Framebuffer, Image, ImageDescription, Outside, RenderPass, Subpass, Use,
-    shaders,
-};
+use crate::gpu::{Blend, Commands, Framebuffer, Image, RenderPass, Use, shaders};
 use crate::shared;
-use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
+use crate::targets::Targets;
 
 /// What the variable is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,33 +61,8 @@ impl Aov {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>, targets: &Targets, quantity: Quantity) -> Result<Self> {
-        let image = Image::new(
-            inputs.device,
-            &ImageDescription {
-                name: "aov",
-                format: HDR_FORMAT,
-                size: targets.depth.size(),
-                layers: None,
-                mips: 1,
-                uses: &[Use::ColorWrite, Use::TransferRead],
-            },
-        )?;
-        let pass = RenderPass::new(
-            inputs.device,
-            "aov",
-            &[
-                Attachment { format: HDR_FORMAT, before: Use::Nothing, after: Use::TransferRead },
-                Attachment { format: DEPTH_FORMAT, before: Use::DepthRead, after: Use::DepthRead },
-            ],
-            &[Subpass { color: &[0], input: &[], depth: Some((1, Use::DepthTest)) }],
-            &[],
-            &[
-                Outside::Before(Use::TransferRead, Use::ColorWrite),
-                Outside::Before(Use::ComputeWrite, Use::FragmentRead),
-                Outside::After(Use::ColorWrite, Use::TransferRead),
-            ],
-        )?;
-        let framebuffer = Framebuffer::new(inputs.device, &pass, &[&image, &targets.depth])?;
+        let pass = sheet_pass(inputs, "aov")?;
+        let Sheet { framebuffer, image } = Sheet::new(inputs, targets, &pass, "aov")?;
         let blend = if quantity == Quantity::Coverage { Blend::Add } else { Blend::Replace };
         let extra = [(shared::SPEC_AOV, quantity as u32)];
         let pipelines = SurfacePipelines::new(inputs, shaders::AOV_AOV_FRAG, &extra, blend, (&pass, 0))?;

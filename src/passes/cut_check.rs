@@ -3,15 +3,13 @@
 //!
 //! No model of the error is needed then, and none has to be believed: it holds for any lobe, order and place of the lights.
 
+use super::sheet::{Sheet, sheet_pass};
 use super::{PassInputs, SurfacePipelines, View};
 use crate::error::Result;
-use crate::gpu::{
-    Attachment, Blend, Commands, Framebuffer, Image, ImageDescription, Outside, RenderPass, Subpass, Use,
-    shaders,
-};
+use crate::gpu::{Blend, Commands, RenderPass, Use, shaders};
 use crate::passes::direct::LIGHTS_PER_DRAW;
 use crate::shared;
-use crate::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
+use crate::targets::Targets;
 
 /// Pairs of pixel and light about, of those that are checked: half a second of one core.
 const PAIRS: u64 = 1 << 26;
@@ -21,7 +19,7 @@ const LEAST_PIXELS: u64 = 1024;
 /// The pass, its two pictures and their pipelines.
 pub struct CutCheck {
     pass: RenderPass,
-    pictures: [(Framebuffer, Image); 2],
+    pictures: [Sheet; 2],
     cut: SurfacePipelines,
     exact: SurfacePipelines,
 }
@@ -32,39 +30,11 @@ impl CutCheck {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(inputs: &PassInputs<'_>, targets: &Targets) -> Result<Self> {
-        let pass = RenderPass::new(
-            inputs.device,
-            "cut check",
-            &[
-                Attachment { format: HDR_FORMAT, before: Use::Nothing, after: Use::TransferRead },
-                Attachment { format: DEPTH_FORMAT, before: Use::DepthRead, after: Use::DepthRead },
-            ],
-            &[Subpass { color: &[0], input: &[], depth: Some((1, Use::DepthTest)) }],
-            &[],
-            &[
-                Outside::Before(Use::TransferRead, Use::ColorWrite),
-                Outside::Before(Use::ComputeWrite, Use::FragmentRead),
-                Outside::After(Use::ColorWrite, Use::TransferRead),
-            ],
-        )?;
-        let size = targets.depth.size();
-        let picture = || -> Result<(Framebuffer, Image)> {
-            let image = Image::new(
-                inputs.device,
-                &ImageDescription {
-                    name: "cut check",
-                    format: HDR_FORMAT,
-                    size,
-                    layers: None,
-                    mips: 1,
-                    uses: &[Use::ColorWrite, Use::TransferRead],
-                },
-            )?;
-            Ok((Framebuffer::new(inputs.device, &pass, &[&image, &targets.depth])?, image))
-        };
+        let pass = sheet_pass(inputs, "cut check")?;
+        let picture = || Sheet::new(inputs, targets, &pass, "cut check");
         let pictures = [picture()?, picture()?];
         let lights = inputs.scene.lights.lights.len() - inputs.scene.lights.ranged;
-        let one_in = [(shared::SPEC_ONE_IN, one_in(size, lights as u64))];
+        let one_in = [(shared::SPEC_ONE_IN, one_in(targets.depth.size(), lights as u64))];
         let surfaces = |shader, extra: &[(u32, u32)]| {
             SurfacePipelines::new(inputs, shader, extra, Blend::Add, (&pass, 0))
         };
@@ -75,13 +45,13 @@ impl CutCheck {
 
     /// Draws both pictures.
     pub fn record(&self, cmd: &mut Commands, view: &View<'_>) {
-        let [(cut, _), (exact, _)] = &self.pictures;
+        let [cut, exact] = &self.pictures;
         let lights = &view.scene.lights;
         cmd.labelled("cut check", |cmd| {
-            cmd.begin_pass(&self.pass, cut);
+            cmd.begin_pass(&self.pass, &cut.framebuffer);
             self.cut.draw(cmd, view, [0; 2]);
             cmd.end_pass();
-            cmd.begin_pass(&self.pass, exact);
+            cmd.begin_pass(&self.pass, &exact.framebuffer);
             let end = lights.lights.len() as u32;
             for first in (lights.ranged as u32..end).step_by(LIGHTS_PER_DRAW as usize) {
                 self.exact.draw(cmd, view, [first, end.min(first + LIGHTS_PER_DRAW)]);
@@ -97,8 +67,8 @@ impl CutCheck {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn relative_error(&self, picture: &[[f32; 3]]) -> Result<f64> {
         let [cut, exact] = &self.pictures;
-        let fetch = |(_, image): &(Framebuffer, Image)| -> Result<Vec<[f32; 4]>> {
-            image.fetch(Use::TransferRead, Use::TransferRead)
+        let fetch = |sheet: &Sheet| -> Result<Vec<[f32; 4]>> {
+            sheet.image.fetch(Use::TransferRead, Use::TransferRead)
         };
         let (cut, exact) = (fetch(cut)?, fetch(exact)?);
         let checked: Vec<usize> = (0..picture.len()).filter(|&pixel| exact[pixel][3] > 0.0).collect();

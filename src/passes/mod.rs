@@ -19,6 +19,7 @@ pub mod pairs;
 pub mod prepass;
 pub mod present;
 pub mod resolve;
+mod sheet;
 mod tally;
 
 use crate::draws::VisibleDraw;
