@@ -5,6 +5,7 @@
 mod adopt;
 mod cut;
 mod encoded;
+mod gather;
 mod pick;
 mod results;
 mod retune;
@@ -22,6 +23,7 @@ use crate::gpu::{Buffer, BufferUse, Commands, DescriptorSets, Device, Timestamps
 use crate::gpu_scene::GpuScene;
 use crate::passes::cluster::{Capacity, ClusterPass, ClusterTargets};
 use crate::passes::forward::{Forward, Sample, Work};
+use crate::passes::gather::{Gather, Gathered, GatheredLights};
 use crate::passes::prepass::Prepass;
 use crate::passes::resolve::Resolve;
 use crate::passes::{PassInputs, View};
@@ -45,6 +47,8 @@ pub struct Frame {
     cluster: Option<ClusterPass>,
     resolve: Option<Resolve>,
     forward: Forward,
+    gather: Option<Gather>,
+    gathered_lights: Option<GatheredLights>,
     lists: ClusterTargets,
     constants: Buffer<FrameConstants>,
     set: DescriptorSets,
@@ -53,6 +57,9 @@ pub struct Frame {
     timestamps: Timestamps,
     pass_names: Vec<&'static str>,
     samples: u32,
+    // Frames of gathered light, and rows of the next one.
+    gathered: u32,
+    gathered_rows: u32,
     slices: u32,
     // Of the sample last rendered.
     last: FrameConstants,
@@ -84,6 +91,8 @@ impl Frame {
                 .then(|| Resolve::new(&inputs, &targets, work.folded, capacity.clusters))
                 .transpose()?,
             forward: Forward::new(&inputs, &targets, work)?,
+            gather: gather::pass(&inputs, &targets, work.gathered)?,
+            gathered_lights: None,
             lists: ClusterTargets::new(device, tiles, capacity)?,
             constants: Buffer::new(device, "frame constants", BufferUse::Uniform, 1)?,
             set: scene.layout.allocate(shared::frame::SET, 1)?,
@@ -92,6 +101,8 @@ impl Frame {
             timestamps: Timestamps::new(device, pass_names.len() as u32 + 1)?,
             pass_names,
             samples: 0,
+            gathered: 0,
+            gathered_rows: 0,
             slices: 0,
             last: FrameConstants::default(),
             draws: Vec::new(),
@@ -147,6 +158,9 @@ impl Frame {
             Targets::new(&self.device, size, [self.work.resolve, self.work.cut], self.settings.encoding)?;
         self.prepass.resize(&self.device, &self.targets)?;
         self.forward.resize(&self.device, &self.targets)?;
+        if let Some(gather) = &mut self.gather {
+            gather.resize(&self.device, &self.targets)?;
+        }
         let now = self.lists.capacity;
         let start = Capacity::start(tiles_of(size), self.work.lists, now.mask);
         let capacity = Capacity { folds: now.folds, ..start };
@@ -156,6 +170,7 @@ impl Frame {
         }
         self.lists = ClusterTargets::new(&self.device, tiles_of(size), capacity)?;
         self.samples = 0;
+        self.forget_gathered();
         self.bind();
         Ok(())
     }
@@ -186,7 +201,11 @@ impl Frame {
     /// Adds one sample; `false` if clusters or lists did not fit, and now have room: then the picture starts anew.
     fn add_sample(&mut self, inputs: &FrameInputs<'_>, index: u32, watch: &mut Stopwatch) -> Result<bool> {
         self.update_constants(inputs, index)?;
-        let sample = Sample { first: index == 0, scale: inputs.exposure.exp2() / (index + 1) as f32 };
+        if index == 0 {
+            self.forget_gathered();
+        }
+        let scales = self.scales(inputs, index + 1);
+        let sample = Sample { first: index == 0, shaded: true, scales };
         self.submit(sample, inputs.split, watch)?;
         watch.add_gpu(self.timestamps.intervals()?);
         self.samples = index + 1;
@@ -352,6 +371,9 @@ impl Frame {
         if self.work.cut {
             set.image(shared::frame::FRAME_HDR_READ, &self.targets.hdr, Use::ComputeRead);
         }
+        if let Some(gather) = &self.gather {
+            set.image(shared::frame::FRAME_GATHERED, gather.sums(), Use::FragmentRead);
+        }
         self.lists.bind(set);
     }
 }
@@ -365,8 +387,10 @@ fn pass_inputs<'a>(device: &'a Arc<Device>, scene: &'a GpuScene, settings: &Fram
 fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
     let lights = &scene.lights;
     let drawn = !scene.draws.is_empty();
+    let gathered = gather::wanted(scene, settings);
     let first_unranged = if settings.brute_force { 0 } else { lights.ranged };
-    let lists = drawn && first_unranged > 0;
+    let shaded = drawn && !gathered.points;
+    let lists = shaded && first_unranged > 0;
     let compute = match settings.front_end {
         FrontEnd::Auto => device.is_cpu(),
         FrontEnd::Fragment => false,
@@ -374,7 +398,7 @@ fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
     };
     let resolve = lists && compute && !scene.resolved.specializations.is_empty();
     let area = if drawn { scene.area.count } else { 0 };
-    let unranged = drawn && lights.lights.len() > first_unranged;
+    let unranged = shaded && lights.lights.len() > first_unranged;
     let cut = unranged
         && !lights.moments.is_empty()
         && settings.light_error >= cut::LEAST_ERROR
@@ -391,6 +415,7 @@ fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
         area,
         masks: area > AREA_LIGHTS_WITHOUT_MASKS && !settings.brute_force,
         luminaires: !scene.area.luminaires.is_empty(),
+        gathered,
         tonemap: settings.tonemap,
         encoding: settings.encoding,
     }

@@ -69,6 +69,8 @@ pub struct GpuScene {
     pub resolved: Resolved,
     /// Constants of the materials.
     pub records: Vec<MaterialRecord>,
+    /// Whether every surface is Lambertian.
+    pub lambertian: bool,
     /// Median of the point lights' ranges, metres; 0 without any.
     pub median_range: f32,
     /// Point lights in device order, at time 0.
@@ -100,7 +102,6 @@ impl GpuScene {
     /// # Errors
     /// [`Error::Usage`] for what is not supported yet, [`Error::Vulkan`] where memory is short.
     pub fn new(device: &Arc<Device>, scene: &Scene) -> Result<Self> {
-        reject_unsupported(scene)?;
         let layout = Arc::new(PipelineLayout::new(
             device,
             &[shared::frame::BINDINGS, shared::scene::BINDINGS, shared::material::BINDINGS],
@@ -139,6 +140,7 @@ impl GpuScene {
             triangles: Buffer::with(device, "triangles", BufferUse::Index, &geometry.triangles)?,
             draws: geometry.draws,
             resolved: Resolved::new(&variants, records.len()),
+            lambertian: scene.materials.iter().all(is_lambertian),
             records,
             variants,
             origin,
@@ -172,14 +174,9 @@ impl GpuScene {
     }
 }
 
-fn reject_unsupported(scene: &Scene) -> Result<()> {
-    let unsupported = [(scene.render.vpls > 0, "indirect light", "set indirect.vpls = 0")];
-    match unsupported.into_iter().find(|(used, ..)| *used) {
-        Some((_, what, remedy)) => {
-            Err(Error::usage(format!("{what}: not supported yet by the renderer"), remedy))
-        }
-        None => Ok(()),
-    }
+fn is_lambertian(material: &Material) -> bool {
+    let sigma = material.value(Parameter::Sigma);
+    material.model == Model::Matte && sigma.texture.is_none() && sigma.constant[0] == 0.0
 }
 
 /// Distinct variants, and for each mesh its own, and the one from outside if it is closed.

@@ -288,6 +288,22 @@ shared! {
         SPEC_NOTE_PIXELS = 47;
         /// Clusters note the variants of their pixels.
         SPEC_NOTE_VARIANTS = 45;
+        /// Lights that are gathered cast shadows.
+        SPEC_GATHER_SHADOWS = 49;
+        /// The scene's point lights are gathered, not shaded one by one: they cast shadows.
+        SPEC_GATHER_POINTS = 50;
+        /// There is indirect light.
+        SPEC_GATHER_INDIRECT = 51;
+        /// Every surface is Lambertian, and the background black: only what is near has to be looked for.
+        SPEC_GATHER_LAMBERT = 52;
+        /// Pixels along a side of a workgroup that gathers.
+        GATHER_SIDE = 8;
+        /// Frames of a round: each pixel of a block of 4 × 4 draws from another of so many strata in each.
+        GATHER_STRATA = 16;
+        /// Independent sums of rounds, from which the error is told.
+        GATHER_SUBSETS = 4;
+        /// log2 of the texels across the texture of gathered lights and their trees.
+        GATHERED_WIDTH_LOG2 = 12;
     }
     sets {
         /// Descriptors of a frame: targets and clusters.
@@ -317,6 +333,8 @@ shared! {
             FRAME_SURFACE = 10: Sampled in Compute;
             /// Scene-linear colour; its fourth value is not 0 where a pixel's cut was given up.
             FRAME_HDR_READ = 11: Sampled in Compute;
+            /// Gathered light: a layer for each subset, of indirect light, then of the scene's point lights.
+            FRAME_GATHERED = 12: Sampled in Fragment;
         }
         /// Descriptors of a scene.
         scene = 1 {
@@ -348,6 +366,19 @@ shared! {
             RESOLVE_MATERIALS = 1: Sampled in Compute;
             /// Scene-linear colour, added to.
             RESOLVE_HDR = 2: StorageImage in Compute;
+        }
+        /// What gathers light, in the place of a material's.
+        gather = 2 {
+            /// Words 0 … 3 of a pixel's surface, see `glsl/gather/words.glsl`.
+            GATHER_WORDS_A = 0: Sampled in Compute;
+            /// Words 4 … 7.
+            GATHER_WORDS_B = 1: Sampled in Compute;
+            /// Words 8 … 11.
+            GATHER_WORDS_C = 2: Sampled in Compute;
+            /// [`VirtualNode`](super::VirtualNode)s and [`VirtualLight`](super::VirtualLight)s, two texels each.
+            GATHER_LIGHTS = 3: Sampled in Compute;
+            /// What `FRAME_GATHERED` reads.
+            GATHER_SUMS = 4: StorageImage in Compute;
         }
         /// The accounting's own, in the place of a material's.
         pairs = 2 {
@@ -459,6 +490,30 @@ shared! {
             lights: uvec2;
             /// Prepass: last word of the surface.
             surface: uint;
+            /// Present: factor on the sum of gathered light.
+            gathered: float;
+        }
+        /// Push constants of a gathering. A tree: its first texel, where its lights follow its nodes, and its leaves, a power
+        /// of two; 0: no lights.
+        GatherConstants {
+            /// Of the scene's point lights.
+            points: uvec2;
+            /// Of points on area lights.
+            emitters: uvec2;
+            /// Of virtual lights.
+            virtuals: uvec2;
+            /// Largest geometry term that gathering takes over, m⁻².
+            bound: float;
+            /// Bounces between the eye's surface and a light, at most.
+            bounces: uint;
+            /// Frame of the round, below `GATHER_STRATA`.
+            frame: uint;
+            /// Another one for each round.
+            seed: uint;
+            /// Subset that it is added to.
+            subset: uint;
+            /// First row of pixels.
+            row: uint;
         }
         /// Push constants of the window's overlay.
         OverlayConstants {

@@ -15,6 +15,8 @@ const float MIN_COSINE = 1e-15;
 float sqr(float x) { return x * x; }
 vec3 sqr(vec3 x) { return x * x; }
 
+float greatest(vec3 x) { return max(x.x, max(x.y, x.z)); }
+
 // Not pow(): Vulkan grants it the errors of exp2 and log2 together, and software drivers take both from polynomials.
 float pow5(float x) { return sqr(sqr(x)) * x; }
 

@@ -95,6 +95,7 @@ impl Default for Command {
             frames: None,
             report: None,
             aov: Vec::new(),
+            refine: RefineOptions { indirect_error: INDIRECT_ERROR, time_limit: None },
         })
     }
 }
@@ -146,6 +147,36 @@ pub(super) struct RenderOptions {
     /// may be off by), direct or indirect; numbers in .exr or .pfm, colours in .png
     #[arg(long, value_name = "NAME=FILE", value_parser = parse_pair)]
     pub(super) aov: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(super) refine: RefineOptions,
+}
+
+/// Default of `--indirect-error`.
+const INDIRECT_ERROR: f64 = 0.02;
+
+#[derive(Clone, Debug, ClapArgs)]
+pub(super) struct RefineOptions {
+    /// Refine indirect light and the shadows of point lights until the picture's estimated error, relative to its mean, is
+    /// below E
+    #[arg(long, value_name = "E", default_value_t = INDIRECT_ERROR, value_parser = parse_share)]
+    pub(super) indirect_error: f64,
+    /// Or until S seconds have passed, for each picture
+    #[arg(long, value_name = "S", value_parser = parse_seconds)]
+    pub(super) time_limit: Option<f64>,
+}
+
+fn parse_share(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(share) if share > 0.0 && share < f64::INFINITY => Ok(share),
+        _ => Err("expected a number above 0, such as 0.02".into()),
+    }
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if (0.0..1e9).contains(&seconds) => Ok(seconds),
+        _ => Err("expected seconds, such as 30".into()),
+    }
 }
 
 #[derive(Debug, ClapArgs)]

@@ -5,7 +5,7 @@ use super::measure::Figure;
 use super::outputs::{check_distinct, check_folder};
 use super::report::{self, Clusters, Origin, Pairs, Pass};
 use super::terminal::print;
-use super::{FRAME_RATE, camera, in_scene, load_scene, warn_of_missing_shadows};
+use super::{FRAME_RATE, camera, in_scene, load_scene, warn_of_gathered_light};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, Options};
@@ -64,7 +64,7 @@ fn point(device: &Arc<Device>, options: &BenchOptions, path: Option<PathBuf>) ->
     let scene = load_scene(&scene_options)?;
     let camera = camera(&scene, None)?;
     let gpu_scene = Arc::new(in_scene(&scene_options, GpuScene::new(device, &scene))?);
-    warn_of_missing_shadows(&scene);
+    warn_of_gathered_light(&scene);
     let settings = FrameSettings::new(&scene.render, camera);
     let mut frame = Frame::new(device, &gpu_scene, settings)?;
     let inputs = FrameInputs {

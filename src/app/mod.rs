@@ -12,6 +12,7 @@ mod fit_maps;
 mod info;
 mod measure;
 mod outputs;
+mod refine;
 mod reference;
 mod render;
 mod report;
@@ -97,12 +98,13 @@ impl SceneOptions {
     }
 }
 
-/// Says once what shadows the renderer leaves out.
-fn warn_of_missing_shadows(scene: &Scene) {
-    if scene.render.shadows && !scene.point_lights.is_empty() {
+/// Says once what light a single frame leaves out.
+fn warn_of_gathered_light(scene: &Scene) {
+    let points = scene.render.shadows && !scene.point_lights.is_empty();
+    if points || scene.render.vpls > 0 {
         terminal::complain(
-            "warning: the scene asks for shadows; point lights cast none yet, only area lights do\n  remedy: give \
-             lights that must cast shadows an area; `amas reference --integrator shadowed` has those of points",
+            "warning: indirect light and point lights with shadows are gathered over many frames, which are left out here\n  \
+             remedy: use `amas render` for them, or --set vpls=0 and --set shadows=false",
         );
     }
 }

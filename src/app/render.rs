@@ -5,10 +5,11 @@ use super::args::RenderOptions;
 use super::outputs::{
     Kind, check_distinct, check_folder, check_frames, check_picture, check_single, frame_path, kind,
 };
+use super::refine::{Goal, Rounds, refine};
 use super::report::{self, Report};
-use super::{FRAME_RATE, camera, in_scene, load_scene, warn_of_missing_shadows};
+use super::{FRAME_RATE, camera, in_scene, load_scene};
 use crate::error::Result;
-use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
+use crate::frame::{Frame, FrameInputs, FrameSettings};
 use crate::gpu::{Device, Options};
 use crate::gpu_scene::GpuScene;
 use crate::image::save_png8;
@@ -29,13 +30,13 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let device =
         Device::open(&Options { device: options.device.device.clone(), validate: options.device.validate })?;
     let gpu_scene = Arc::new(in_scene(&options.scene, GpuScene::new(&device, &scene))?);
-    warn_of_missing_shadows(&scene);
     let settings = FrameSettings::new(&scene.render, camera);
     let mut frame = Frame::new(&device, &gpu_scene, settings)?;
 
     let frames = options.frames.clone().unwrap_or(0..1);
     let bar = progress(frames.len() as u64 * u64::from(scene.render.samples));
     let mut timings = Vec::new();
+    let mut error = None;
     for index in frames {
         let time = f64::from(index) / FRAME_RATE;
         let placed = if options.frames.is_some() { camera.at(time) } else { camera.clone() };
@@ -47,7 +48,16 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
             split: options.report.is_some(),
             progress: bar.clone(),
         };
-        timings.push(picture(&mut frame, &inputs, settings.size, (&outputs, index))?);
+        let mut taken = frame.render(&inputs)?;
+        if frame.gathers().anything() {
+            let rounds = Rounds::new(&scene, &gpu_scene, &frame, time);
+            let goal = Goal { error: options.refine.indirect_error, time_limit: options.refine.time_limit };
+            let (refining, left) = refine(&mut frame, &rounds, &device, &inputs, goal)?;
+            taken.add(&refining);
+            error = left;
+        }
+        timings.push(taken);
+        save(&frame, settings.size, (&outputs, index))?;
         let source = Source { device: &device, gpu_scene: &gpu_scene, scene: &scene, camera: &placed, time };
         source.save(&mut frame, &aovs, index)?;
     }
@@ -61,7 +71,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         &timings,
     )?;
     if let Some(path) = &options.report {
-        report::save(path, &Report::new(&device, &scene, &frame, &timings)?)?;
+        report::save(path, &Report::new(&device, &scene, &frame, (&timings, error))?)?;
     }
     device.require_silence()
 }
@@ -84,13 +94,7 @@ fn progress(samples: u64) -> ProgressBar {
     }
 }
 
-fn picture(
-    frame: &mut Frame,
-    inputs: &FrameInputs<'_>,
-    [width, height]: [u32; 2],
-    (outputs, index): (&[PathBuf], u32),
-) -> Result<Timings> {
-    let timings = frame.render(inputs)?;
+fn save(frame: &Frame, [width, height]: [u32; 2], (outputs, index): (&[PathBuf], u32)) -> Result<()> {
     for output in outputs {
         let path = frame_path(output, index);
         match kind(output)? {
@@ -101,5 +105,5 @@ fn picture(
             Kind::Linear => frame.hdr()?.save(&path)?,
         }
     }
-    Ok(timings)
+    Ok(())
 }

@@ -127,12 +127,12 @@ pub(super) struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    /// The report of frames that took `timings`; pairs are those of the last.
+    /// The report of frames that took `timings`; pairs are those of the last, as is the error of gathered light.
     pub(super) fn new(
         device: &'a Arc<Device>,
         scene: &Scene,
         frame: &Frame,
-        timings: &[Timings],
+        (timings, gathered_error): (&[Timings], Option<f64>),
     ) -> Result<Self> {
         let passes = passes(timings);
         let clusters = clusters(frame);
@@ -153,7 +153,7 @@ impl<'a> Report<'a> {
                 wall_ms: figure(timings, |t| Some(t.wall_ms)),
                 cpu_ms: figure(timings, |t| Some(t.cpu_ms)),
             },
-            error_estimate: ErrorEstimate { light_relative: frame.light_error()?, indirect_relative: 0.0 },
+            error_estimate: ErrorEstimate { light_relative: frame.light_error()?, indirect_relative: gathered_error.unwrap_or(0.0) },
             clusters,
             validation_messages: device.validation_messages().map(|messages| messages.len()),
             peak_memory: PeakMemory {

@@ -21,7 +21,15 @@ impl Frame {
     pub fn hdr(&self) -> Result<HdrImage> {
         let texels: Vec<[f32; 4]> = self.targets.hdr.fetch(Use::TransferRead, Use::TransferRead)?;
         let samples = self.samples.max(1) as f32;
-        Ok(self.image(texels.iter().map(|&[r, g, b, _]| [r / samples, g / samples, b / samples]).collect()))
+        let mut pixels: Vec<[f32; 3]> =
+            texels.iter().map(|&[r, g, b, _]| [r / samples, g / samples, b / samples]).collect();
+        for gathered in self.gathered_light()?.iter().flatten() {
+            for (pixel, light) in pixels.iter_mut().zip(&gathered.pixels) {
+                // See glsl/present/gathered.frag.
+                (0..3).for_each(|channel| pixel[channel] = (pixel[channel] + light[channel]).max(0.0));
+            }
+        }
+        Ok(self.image(pixels))
     }
 
     /// The display-referred picture, sRGB-encoded.

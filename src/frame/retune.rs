@@ -24,7 +24,7 @@ impl Frame {
         }
         if next.tonemap != self.work.tonemap {
             let inputs = pass_inputs(&self.device, &self.scene, &settings);
-            self.forward.set_looks(&inputs, (next.tonemap, next.encoding))?;
+            self.forward.set_looks(&inputs, next.looks())?;
         }
         self.work = next;
         self.settings = settings;

@@ -24,6 +24,12 @@ pub struct FrameSettings {
     pub perspective: bool,
     /// What shades the lights in lists.
     pub front_end: FrontEnd,
+    /// Light that comes by way of other surfaces.
+    pub indirect: bool,
+    /// Bounces of it at most.
+    pub bounces: u32,
+    /// Every light casts shadows.
+    pub shadows: bool,
     /// Every light on every pixel, without clusters: what the clustered picture is measured against.
     pub brute_force: bool,
     /// Invocations of small workgroups: 8, 16 or 32; `None`: what suits the device. No picture depends on it.
@@ -43,6 +49,9 @@ impl FrameSettings {
             max_lights_per_cluster: render.max_lights_per_cluster,
             perspective: matches!(camera.projection, Projection::Perspective { .. }),
             front_end: render.front_end,
+            indirect: render.vpls > 0,
+            bounces: render.bounces,
+            shadows: render.shadows,
             brute_force: false,
             lanes: None,
         }

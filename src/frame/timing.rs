@@ -1,5 +1,6 @@
 //! What a frame cost: wall time, CPU time of the whole process, and time per pass.
 
+use crate::error::Result;
 use cpu_time::ProcessTime;
 use std::time::{Duration, Instant};
 
@@ -15,7 +16,7 @@ pub struct PassTime {
 }
 
 /// A frame's cost, summed over its samples.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Timings {
     /// Passes in frame order.
     pub passes: Vec<PassTime>,
@@ -26,6 +27,34 @@ pub struct Timings {
 }
 
 impl Timings {
+    /// What a step on the host costs, as a pass of that name.
+    ///
+    /// # Errors
+    /// The step's.
+    pub fn of(name: &'static str, step: impl FnOnce() -> Result<()>) -> Result<Self> {
+        let mut watch = Stopwatch::start(&[name]);
+        let before = watch.cpu();
+        step()?;
+        watch.add_cpu(1, before);
+        Ok(watch.stop())
+    }
+
+    /// Adds what further work on the picture cost: pass by pass of the same name, new ones behind.
+    pub fn add(&mut self, further: &Self) {
+        let sum = |a: Option<f64>, b: Option<f64>| a.map(|a| a + b.unwrap_or(0.0)).or(b);
+        for pass in &further.passes {
+            match self.passes.iter_mut().find(|known| known.name == pass.name) {
+                Some(known) => {
+                    known.gpu_ms = sum(known.gpu_ms, pass.gpu_ms);
+                    known.cpu_ms = sum(known.cpu_ms, pass.cpu_ms);
+                }
+                None => self.passes.push(pass.clone()),
+            }
+        }
+        self.wall_ms += further.wall_ms;
+        self.cpu_ms += further.cpu_ms;
+    }
+
     /// With what happened before on the host: the moving of the lights.
     pub(super) fn after(mut self, lights: Option<Self>) -> Self {
         if let Some(lights) = lights {

@@ -96,7 +96,7 @@ pub struct GraphicsDescription<'a> {
     pub vertices: Vertices,
     /// Depth test.
     pub depth: DepthTest,
-    /// Blending of the one colour attachment, if the subpass has one.
+    /// Blending of the subpass's colour attachments, if it has any.
     pub blend: Option<Blend>,
     /// Culling.
     pub cull: Cull,
@@ -177,8 +177,9 @@ impl GraphicsPipeline {
         let samples = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(vk::SampleCountFlags::TYPE_1);
         let depth = depth_state(description.depth);
-        let attachment = description.blend.map(blend_state);
-        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(attachment.as_slice());
+        let colors = description.pass.colors[description.subpass as usize];
+        let attachments: Vec<_> = description.blend.map(blend_state).into_iter().cycle().take(colors).collect();
+        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic = vk::PipelineDynamicStateCreateInfo::default()
             .dynamic_states(&[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR]);
         let info = [vk::GraphicsPipelineCreateInfo::default()

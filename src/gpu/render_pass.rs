@@ -37,6 +37,8 @@ impl Subpass<'_> {
 /// A render pass.
 pub struct RenderPass {
     pub(super) raw: vk::RenderPass,
+    // Colour attachments of each subpass.
+    pub(super) colors: Vec<usize>,
     device: Arc<Device>,
 }
 
@@ -77,7 +79,8 @@ impl RenderPass {
         // SAFETY: every index names an attachment or subpass given above, as validation checks in tests.
         let raw = unsafe { device.raw.create_render_pass(&info, None) }.called("vkCreateRenderPass")?;
         device.name(raw, name);
-        Ok(Self { raw, device: device.clone() })
+        let colors = subpasses.iter().map(|subpass| subpass.color.len()).collect();
+        Ok(Self { raw, colors, device: device.clone() })
     }
 }
 

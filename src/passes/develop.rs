@@ -1,13 +1,12 @@
 //! A scene-linear picture from elsewhere, developed as the frame's own: exposure, tone curve, encoding.
 
-use super::present::Present;
+use super::present::{Looks, Present};
 use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
     Attachment, DescriptorSets, Device, Framebuffer, Image, ImageDescription, Outside, RenderPass, Subpass,
     Use,
 };
-use crate::scene::settings::{Encoding, Tonemap};
 use crate::shared;
 use crate::targets::{HDR_FORMAT, ldr_format};
 use std::sync::Arc;
@@ -28,8 +27,8 @@ impl Develop {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn new(inputs: &PassInputs<'_>, looks: (Tonemap, Encoding), size: [u32; 2]) -> Result<Self> {
-        let format = ldr_format(looks.1);
+    pub fn new(inputs: &PassInputs<'_>, looks: Looks, size: [u32; 2]) -> Result<Self> {
+        let format = ldr_format(looks.encoding);
         let image = |name, format, uses: &[Use]| {
             Image::new(inputs.device, &ImageDescription { name, format, size, layers: None, mips: 1, uses })
         };
@@ -72,7 +71,7 @@ impl Develop {
         let view = View { frame: self.set.get(0), ..*view };
         self.device.run("develop", |cmd| {
             cmd.begin_pass(&self.pass, &self.framebuffer);
-            self.present.record(cmd, &view, scale);
+            self.present.record(cmd, &view, [scale, 0.0]);
             cmd.end_pass();
             Ok(())
         })

@@ -4,7 +4,8 @@
 
 use super::direct::Direct;
 use super::indirect::Indirect;
-use super::present::Present;
+use super::gather::Gathered;
+use super::present::{Looks, Present};
 use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{Attachment, Commands, Device, Framebuffer, Outside, RenderPass, Subpass, Timestamps, Use};
@@ -41,10 +42,20 @@ pub struct Work {
     pub masks: bool,
     /// Area lights that are seen.
     pub luminaires: bool,
+    /// Light that is gathered, frame by frame.
+    pub gathered: Gathered,
     /// Tone curve.
     pub tonemap: Tonemap,
     /// Encoding of the picture.
     pub encoding: Encoding,
+}
+
+impl Work {
+    /// What the present subpass is made for.
+    #[must_use]
+    pub fn looks(&self) -> Looks {
+        Looks { tonemap: self.tonemap, encoding: self.encoding, gathered: self.gathered.anything() }
+    }
 }
 
 /// The forward pass.
@@ -78,7 +89,7 @@ impl Forward {
         Ok(Self {
             direct: Direct::new(inputs, work, (&first, 0))?,
             indirect,
-            present: Present::new(inputs, (work.tonemap, work.encoding), (&first, last))?,
+            present: Present::new(inputs, work.looks(), (&first, last))?,
             first,
             further,
             framebuffer,
@@ -89,7 +100,7 @@ impl Forward {
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
-    pub fn set_looks(&mut self, inputs: &PassInputs<'_>, looks: (Tonemap, Encoding)) -> Result<()> {
+    pub fn set_looks(&mut self, inputs: &PassInputs<'_>, looks: Looks) -> Result<()> {
         let last = if self.indirect.is_some() { 2 } else { 1 };
         self.present = Present::new(inputs, looks, (&self.first, last))?;
         Ok(())
@@ -119,15 +130,19 @@ impl Forward {
             stamp += 1;
         };
         cmd.begin_pass(if sample.first { &self.first } else { &self.further }, &self.framebuffer);
-        cmd.labelled("direct", |cmd| self.direct.record(cmd, view));
+        if sample.shaded {
+            cmd.labelled("direct", |cmd| self.direct.record(cmd, view));
+        }
         done(cmd);
         if let Some(indirect) = &self.indirect {
             cmd.next_subpass();
-            cmd.labelled("indirect", |cmd| indirect.record(cmd, view));
+            if sample.shaded {
+                cmd.labelled("indirect", |cmd| indirect.record(cmd, view));
+            }
             done(cmd);
         }
         cmd.next_subpass();
-        cmd.labelled("present", |cmd| self.present.record(cmd, view, sample.scale));
+        cmd.labelled("present", |cmd| self.present.record(cmd, view, sample.scales));
         cmd.end_pass();
         done(cmd);
     }
@@ -138,8 +153,10 @@ impl Forward {
 pub struct Sample {
     /// Clears what was there.
     pub first: bool,
-    /// Factor on the sum: exposure over the number of samples so far.
-    pub scale: f32,
+    /// Whether it adds light, or the picture is only presented again.
+    pub shaded: bool,
+    /// Factors on the sum of samples and on that of gathered light: exposure over the number of either so far.
+    pub scales: [f32; 2],
 }
 
 fn framebuffer(device: &Arc<Device>, pass: &RenderPass, targets: &Targets) -> Result<Framebuffer> {

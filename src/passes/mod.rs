@@ -11,6 +11,7 @@ pub mod develop;
 pub mod direct;
 pub mod floors;
 pub mod forward;
+pub mod gather;
 pub mod indirect;
 mod luminaires;
 #[cfg(feature = "viewer")]

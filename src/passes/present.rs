@@ -9,6 +9,17 @@ use crate::gpu::{
 use crate::scene::settings::{Encoding, Tonemap};
 use crate::shared::{self, DrawConstants};
 
+/// What is compiled into it.
+#[derive(Clone, Copy, Debug)]
+pub struct Looks {
+    /// Tone curve.
+    pub tonemap: Tonemap,
+    /// Encoding of the picture.
+    pub encoding: Encoding,
+    /// Whether the frame has gathered light.
+    pub gathered: bool,
+}
+
 /// The subpass's pipeline.
 pub struct Present(GraphicsPipeline);
 
@@ -19,7 +30,7 @@ impl Present {
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(
         inputs: &PassInputs<'_>,
-        (tonemap, encoding): (Tonemap, Encoding),
+        Looks { tonemap, encoding, gathered }: Looks,
         at: (&RenderPass, u32),
     ) -> Result<Self> {
         let curve = match tonemap {
@@ -33,7 +44,11 @@ impl Present {
             &GraphicsDescription {
                 name: "present",
                 vertex: shaders::PRESENT_FULLSCREEN_VERT,
-                fragment: Some(shaders::PRESENT_PRESENT_FRAG),
+                fragment: Some(if gathered {
+                    shaders::PRESENT_GATHERED_FRAG
+                } else {
+                    shaders::PRESENT_PRESENT_FRAG
+                }),
                 specialization: &Specialization::default()
                     .with(shared::SPEC_TONEMAP, curve)
                     .with(shared::SPEC_ENCODING, encoding as u32),
@@ -48,11 +63,11 @@ impl Present {
         .map(Self)
     }
 
-    /// Encodes the picture: the sum of samples times `scale`.
-    pub fn record(&self, cmd: &mut Commands, view: &View<'_>, scale: f32) {
+    /// Encodes the picture: the sum of samples times the first factor, and that of gathered light times the second.
+    pub fn record(&self, cmd: &mut Commands, view: &View<'_>, [scale, gathered]: [f32; 2]) {
         cmd.bind_graphics(&self.0);
         cmd.bind_sets(shared::frame::SET, &[view.frame]);
-        cmd.push(&DrawConstants { scale, ..DrawConstants::default() });
+        cmd.push(&DrawConstants { scale, gathered, ..DrawConstants::default() });
         cmd.draw_fullscreen();
     }
 }

@@ -4,7 +4,7 @@ use super::Event;
 use super::picture::{Picture, Shape};
 use super::worker::Worker;
 use crate::app::args::SceneOptions;
-use crate::app::{camera_index, in_scene, load_watched, warn_of_missing_shadows};
+use crate::app::{camera_index, in_scene, load_watched};
 use crate::error::{Error, Result};
 use crate::gpu::Device;
 use crate::gpu_scene::GpuScene;
@@ -139,7 +139,6 @@ fn build(
             false => Ok(()),
         }
     };
-    warn_of_missing_shadows(&scene);
     let gpu = GpuScene::new(device, &scene)?;
     going_on()?;
     let picture = Picture::new(device, gpu, scene, camera, shape)?;

@@ -1,0 +1,100 @@
+// Trees over lights that are gathered, and a light drawn from one: a walk down from the root that takes each child with the
+// probability of its importance at the place that is lit (Conty Estévez and Kulla 2018, Importance Sampling of Many Lights).
+#ifndef GATHER_TREES_GLSL
+#define GATHER_TREES_GLSL
+
+#include "lib/octahedron.glsl"
+
+layout(set = SET_gather, binding = GATHER_LIGHTS) uniform utexture2D gathered_lights;
+
+uvec4 gathered_texel(uint index) {
+    ivec2 texel = ivec2(index & ((1u << GATHERED_WIDTH_LOG2) - 1u), index >> GATHERED_WIDTH_LOG2);
+    return texelFetch(gathered_lights, texel, 0);
+}
+
+// What is lit: where, from which side, and how near a light may seem.
+struct Lit {
+    vec3 position;
+    vec3 normal;
+    float bound;  // largest geometry term
+};
+
+// Which lights a tree holds: those with a normal and a cone of them, or points that shine all around, with a range.
+const bool WITH_NORMALS = true;
+const bool ALL_AROUND = false;
+
+// Cosine between a receiver's direction and the nearest normal of a cone, at most: θ = angle − half − widening.
+float cosine_in_cone(float cos_angle, float cos_half, float cos_widening) {
+    float cos_wide = cos_half * cos_widening - sqrt(max((1.0 - sqr(cos_half)) * (1.0 - sqr(cos_widening)), 0.0));
+    float sin_half = sqrt(max(1.0 - sqr(cos_half), 0.0));
+    float sin_widening = sqrt(max(1.0 - sqr(cos_widening), 0.0));
+    float sin_wide = sin_half * cos_widening + cos_half * sin_widening;
+    // The cone and the widening reach around, or the direction is inside.
+    if (sin_wide < 0.0 || cos_wide <= cos_angle) return 1.0;
+    return cos_angle * cos_wide + sqrt(max(1.0 - sqr(cos_angle), 0.0)) * sin_wide;
+}
+
+// About what a node lights a place with, and 0 only where it lights it with nothing.
+float importance(Lit lit, uint node, bool with_normals) {
+    uvec4 a = gathered_texel(2u * node);
+    uvec4 b = gathered_texel(2u * node + 1u);
+    float power = uintBitsToFloat(a.w);
+    vec3 lower = uintBitsToFloat(a.xyz);
+    vec3 upper = uintBitsToFloat(b.xyz);
+    vec3 extent = 0.5 * (upper - lower);
+    vec3 offset = 0.5 * (lower + upper) - lit.position;
+    float d2 = dot(offset, offset);
+    float r2 = dot(extent, extent);
+    float inverse = inversesqrt(max(max(d2, r2), 1e-24));
+    float above = dot(lit.normal, offset) + dot(abs(lit.normal), extent);
+    float geometry = clamp(above * inverse, 0.0, 1.0);
+    if (with_normals) {
+        Cone cone = unpack_cone(b.w);
+        float cos_widening = sqrt(max(1.0 - r2 * sqr(inverse), 0.0));
+        float facing = cosine_in_cone(-dot(cone.axis, offset) * inverse, cone.cosine, cos_widening);
+        geometry *= d2 <= r2 ? 1.0 : max(facing, 0.0);
+    } else {
+        // Out of range of all.
+        vec3 outside = max(abs(offset) - extent, 0.0);
+        float range = uintBitsToFloat(b.w);
+        geometry *= dot(outside, outside) < sqr(range) ? 1.0 : 0.0;
+    }
+    return power * min(geometry * sqr(inverse), lit.bound);
+}
+
+// A light drawn from a tree by a number of [0, 1): its index, and the probability that it was it; 0 where there is none.
+struct Drawn {
+    uint light;
+    float probability;
+};
+
+Drawn draw_light(uvec2 tree, Lit lit, float u, uint seed, bool with_normals) {
+    uint node = 1u;
+    float probability = tree.y > 0u ? 1.0 : 0.0;
+    uint level = 0u;
+    while (node < tree.y && probability > 0.0) {
+        node *= 2u;
+        float left = importance(lit, tree.x / 2u + node, with_normals);
+        float right = importance(lit, tree.x / 2u + node + 1u, with_normals);
+        float sum = left + right;
+        float share = sum > 0.0 ? left / sum : 0.0;
+        bool goes_right = u >= share;
+        float taken = goes_right ? 1.0 - share : share;
+        u = clamp((goes_right ? u - share : u) / max(taken, 1e-30), 0.0, 0.99999994);
+        probability *= sum > 0.0 ? taken : 0.0;
+        node += goes_right ? 1u : 0u;
+        // Each choice uses up bits of the number: new ones from below.
+        ++level;
+        if ((level & 7u) == 0u) u = (floor(u * 256.0) + unit(hash(seed ^ level))) * (1.0 / 256.0);
+    }
+    return Drawn(max(node, tree.y) - tree.y, probability);
+}
+
+VirtualLight gathered_light(uvec2 tree, uint light) {
+    uint texel = tree.x + 4u * tree.y + 2u * light;
+    uvec4 a = gathered_texel(texel);
+    uvec4 b = gathered_texel(texel + 1u);
+    return VirtualLight(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w);
+}
+
+#endif

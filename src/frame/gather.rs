@@ -1,0 +1,180 @@
+//! Gathered light of the frame: indirect light, and that of point lights whose shadows are wanted.
+
+use super::{Frame, FrameInputs, FrameSettings, Timings};
+use crate::error::Result;
+use crate::gpu::Use;
+use crate::gpu_scene::GpuScene;
+use crate::image::HdrImage;
+use crate::passes::PassInputs;
+use crate::passes::forward::Sample;
+use crate::passes::gather::{Gather, Gathered, GatheredLights};
+use crate::shared::{GATHER_STRATA, GATHER_SUBSETS};
+use crate::targets::Targets;
+use super::timing::Stopwatch;
+
+const SUBSETS: usize = GATHER_SUBSETS as usize;
+
+impl Frame {
+    /// What is gathered, frame by frame, once the picture has its samples.
+    #[must_use]
+    pub fn gathers(&self) -> Gathered {
+        self.work.gathered
+    }
+
+    /// Gathers from these lights from now on.
+    pub fn set_gathered_lights(&mut self, lights: GatheredLights) {
+        if let Some(gather) = &self.gather {
+            gather.set_lights(&lights);
+        }
+        self.gathered_lights = Some(lights);
+    }
+
+    pub(super) fn forget_gathered(&mut self) {
+        self.gathered = 0;
+        self.gathered_rows = 0;
+    }
+
+    /// Frames of gathered light that the picture has.
+    #[must_use]
+    pub fn gathered(&self) -> u32 {
+        self.gathered
+    }
+
+    /// Adds a frame of gathered light to the picture, from the lights set last; every `GATHER_STRATA` frames make a round,
+    /// for which other lights are due. Nothing where there is nothing to gather.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn gather(&mut self, inputs: &FrameInputs<'_>) -> Result<Timings> {
+        self.gather_rows(inputs, u32::MAX)
+    }
+
+    /// Rows of blocks of pixels in a frame of gathered light; 0 where nothing is gathered.
+    #[must_use]
+    pub fn rows_to_gather(&self) -> u32 {
+        self.gather.as_ref().map_or(0, Gather::rows)
+    }
+
+    /// As [`Frame::gather`], the next so many rows of the frame; with the last of them the frame counts.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn gather_rows(&mut self, inputs: &FrameInputs<'_>, rows: u32) -> Result<Timings> {
+        let mut watch = Stopwatch::start(&["gather"]);
+        let index = self.gathered;
+        let first = self.gathered_rows;
+        if first == 0 {
+            self.update_constants(inputs, index)?;
+        }
+        let (Some(gather), Some(lights)) = (&self.gather, &self.gathered_lights) else {
+            return Ok(watch.stop());
+        };
+        let end = gather.rows().min(first.saturating_add(rows));
+        let complete = end == gather.rows();
+        self.gathered_rows = if complete { 0 } else { end };
+        self.gathered += u32::from(complete);
+        let sample = Sample { first: false, shaded: false, scales: self.scales(inputs, self.samples) };
+        let before = watch.cpu();
+        self.device.run("gather", |cmd| {
+            if first == 0 {
+                self.prepass.record(cmd, &self.view());
+                gather.begin(cmd, &self.view(), index);
+            }
+            gather.record(cmd, &self.view(), lights, index, first..end);
+            if complete {
+                if self.work.resolve {
+                    cmd.transition(&self.targets.hdr, Use::TransferRead, Use::ComputeWrite);
+                }
+                cmd.reset_timestamps(&self.timestamps);
+                self.forward.record(cmd, &self.view(), sample, (&self.timestamps, 0));
+            }
+            Ok(())
+        })?;
+        watch.add_cpu(1, before);
+        Ok(watch.stop())
+    }
+
+    /// Factors on the sums of samples, of which there are so many, and of gathered light.
+    pub(super) fn scales(&self, inputs: &FrameInputs<'_>, samples: u32) -> [f32; 2] {
+        let exposure = inputs.exposure.exp2();
+        let mean = |count: u32| if count > 0 { exposure / count as f32 } else { 0.0 };
+        [mean(samples), mean(self.gathered)]
+    }
+
+    /// Mean of gathered light: first that which comes by way of other surfaces, then that of point lights; `None` where
+    /// there is none yet.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn gathered_light(&self) -> Result<Option<[HdrImage; 2]>> {
+        let Some(sums) = self.sums()? else { return Ok(None) };
+        let per_frame = 1.0 / self.gathered as f32;
+        let mean = |layers: std::ops::Range<usize>| {
+            let pixel = |index: usize| {
+                let sum = |channel: usize| layers.clone().map(|layer| sums[layer][index][channel]).sum::<f32>();
+                [0, 1, 2].map(|channel| sum(channel) * per_frame)
+            };
+            self.image((0..sums[0].len()).map(pixel).collect())
+        };
+        Ok(Some([mean(0..SUBSETS), mean(SUBSETS..2 * SUBSETS)]))
+    }
+
+    /// The sums, layer by layer.
+    fn sums(&self) -> Result<Option<Vec<Vec<[f32; 4]>>>> {
+        let Some(gather) = self.gather.as_ref().filter(|_| self.gathered > 0) else { return Ok(None) };
+        let texels: Vec<[f32; 4]> = gather.sums().fetch(Use::FragmentRead, Use::FragmentRead)?;
+        let pixels = texels.len() / (2 * SUBSETS);
+        Ok(Some(texels.chunks(pixels).map(<[_]>::to_vec).collect()))
+    }
+
+    /// Estimated relative error of the picture that comes of gathered light: the root of the mean square over pixels of its
+    /// standard error, over the mean of the picture. `None` before two rounds are complete.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn gathered_error(&self) -> Result<Option<f64>> {
+        let rounds = self.gathered / GATHER_STRATA;
+        let Some(sums) = self.sums()?.filter(|_| rounds >= 2) else { return Ok(None) };
+        // Frames of each subset, and the subsets that have any.
+        let subsets = SUBSETS.min(rounds as usize);
+        let frames = |subset: usize| {
+            let whole = u64::from(self.gathered) / u64::from(GATHER_STRATA) / SUBSETS as u64;
+            let rest = u64::from(self.gathered) - whole * u64::from(GATHER_STRATA) * SUBSETS as u64;
+            let own = rest.saturating_sub(subset as u64 * u64::from(GATHER_STRATA)).min(u64::from(GATHER_STRATA));
+            (whole * u64::from(GATHER_STRATA) + own) as f64
+        };
+        let counts: Vec<f64> = (0..subsets).map(frames).collect();
+        let all: f64 = counts.iter().sum();
+        let mut variance = 0.0;
+        for pixel in 0..sums[0].len() {
+            for channel in 0..3 {
+                let sum = |subset: usize| {
+                    f64::from(sums[subset][pixel][channel]) + f64::from(sums[SUBSETS + subset][pixel][channel])
+                };
+                let mean = (0..subsets).map(sum).sum::<f64>() / all;
+                let spread = |subset: usize| counts[subset] * (sum(subset) / counts[subset] - mean).powi(2);
+                variance += (0..subsets).map(spread).sum::<f64>() / ((subsets - 1) as f64 * all);
+            }
+        }
+        let picture = self.hdr()?;
+        let total: f64 = picture.pixels.iter().flatten().map(|&value| f64::from(value)).sum();
+        let values = (3 * picture.pixels.len()) as f64;
+        Ok((total > 0.0).then(|| (variance / values).sqrt() / (total / values)))
+    }
+}
+
+/// What a scene's frames gather.
+pub(super) fn wanted(scene: &GpuScene, settings: &FrameSettings) -> Gathered {
+    let drawn = !scene.draws.is_empty() && !settings.brute_force;
+    Gathered {
+        indirect: drawn && settings.indirect,
+        points: drawn && settings.shadows && !scene.lights.lights.is_empty(),
+        shadows: settings.shadows,
+        lambert: scene.lambertian && settings.background == [0.0; 3],
+        bounces: settings.bounces,
+    }
+}
+
+pub(super) fn pass(inputs: &PassInputs<'_>, targets: &Targets, wanted: Gathered) -> Result<Option<Gather>> {
+    wanted.anything().then(|| Gather::new(inputs, targets, wanted)).transpose()
+}

@@ -1,0 +1,56 @@
+//! Trees over lights on the device: all in one texture of texels.
+
+use crate::error::Result;
+use crate::gpu::{Device, Format, Image, ImageDescription, Use};
+use crate::shared::{GATHERED_WIDTH_LOG2, GatherConstants};
+use crate::virtual_lights::VirtualTree;
+use std::sync::Arc;
+
+/// Texels across the texture.
+const WIDTH: usize = 1 << GATHERED_WIDTH_LOG2;
+
+/// Lights to gather from.
+pub struct GatheredLights {
+    pub(super) image: Image,
+    pub(super) constants: GatherConstants,
+}
+
+impl GatheredLights {
+    /// Uploads the scene's point lights, points on its area lights, and virtual lights; those of the latter that are nearer
+    /// than some `spacing`s of theirs, metres, are left to paths.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] where memory is short.
+    pub fn new(device: &Arc<Device>, trees: [&VirtualTree; 3], spacing: f32) -> Result<Self> {
+        let mut texels: Vec<[u32; 4]> = Vec::new();
+        let [points, emitters, virtuals] = trees.map(|tree| {
+            let first = texels.len() as u32;
+            texels.extend_from_slice(bytemuck::cast_slice(&tree.nodes));
+            texels.extend_from_slice(bytemuck::cast_slice(&tree.lights));
+            [first, if tree.lights.is_empty() { 0 } else { tree.leaves }]
+        });
+        texels.resize(texels.len().next_multiple_of(WIDTH).max(WIDTH), [0; 4]);
+        let image = Image::new(
+            device,
+            &ImageDescription {
+                name: "gathered lights",
+                format: Format::R32G32B32A32_UINT,
+                size: [WIDTH as u32, (texels.len() / WIDTH) as u32],
+                layers: None,
+                mips: 1,
+                uses: &[Use::TransferWrite, Use::Texture],
+            },
+        )?;
+        image.upload(&[&texels], Use::Texture)?;
+        let bound = bound(spacing);
+        Ok(Self { image, constants: GatherConstants { points, emitters, virtuals, bound, ..GatherConstants::default() } })
+    }
+}
+
+/// Spacings of virtual lights within which paths take over.
+const NEAR: f32 = 4.0;
+
+/// Largest geometry term that gathering takes over, m⁻².
+fn bound(spacing: f32) -> f32 {
+    (NEAR * spacing).powi(2).recip().clamp(1e-12, 1e12)
+}
