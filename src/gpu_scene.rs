@@ -4,6 +4,7 @@ mod area;
 mod coincident;
 mod edit;
 mod geometry;
+pub mod hits;
 mod lights;
 pub mod occluders;
 mod resolved;
@@ -23,6 +24,7 @@ pub use area::{Area, Luminaire};
 pub use edit::Edit;
 use geometry::{Geometry, bounds, origin};
 use glam::Vec3;
+use hits::Hits;
 pub use lights::moment_row;
 use lights::{LightImages, Moving, placed};
 use occluders::Occluders;
@@ -77,6 +79,8 @@ pub struct GpuScene {
     pub lights: LightTree,
     /// Area lights.
     pub area: Area,
+    /// What the nearest hits of rays are found and shaded by.
+    pub hits: Hits,
     /// World position of the device's origin. A scene far from the world's is moved to its own, where float32 is fine
     /// enough: 1e5 m out, 46 % of pixels were more than 1 % off.
     pub origin: Vec3,
@@ -120,11 +124,12 @@ impl GpuScene {
         let record_buffer = Buffer::with(device, "materials", BufferUse::Uniform, &records)?;
         let set = layout.allocate(shared::scene::SET, 1)?;
         light_images.bind(set.get(0));
-        // Where shadows are not asked for, or nothing casts any, nothing hides anything.
-        let shadows = scene.render.shadows && !scene.area_lights.is_empty();
-        let bvh = if shadows { Bvh::new(scene, origin) } else { Bvh::default() };
+        let bvh = if meets_rays(scene) { Bvh::new(scene, origin) } else { Bvh::default() };
         let occluders = Occluders::new(device, &bvh)?;
         occluders.bind(set.get(0));
+        let hits = if scene.render.vpls > 0 { Hits::new(device, scene, &bvh)? } else { Hits::none(device)? };
+        hits.bind(set.get(0));
+        let shadows = scene.render.shadows && !scene.area_lights.is_empty();
         let area = Area::new(device, &AreaLights::new(scene, origin)?, geometry.luminaires, shadows)?;
         area.bind(set.get(0));
         tables.bind(set.get(0));
@@ -148,6 +153,7 @@ impl GpuScene {
             median_range: median_range(&lights.lights),
             lights,
             area,
+            hits,
             layout,
             of_material,
             tables,
@@ -177,6 +183,12 @@ impl GpuScene {
 fn is_lambertian(material: &Material) -> bool {
     let sigma = material.value(Parameter::Sigma);
     material.model == Model::Matte && sigma.texture.is_none() && sigma.constant[0] == 0.0
+}
+
+/// Whether rays are traced: where shadows are not asked for, or nothing casts any, nothing hides anything.
+fn meets_rays(scene: &Scene) -> bool {
+    let lights = !scene.area_lights.is_empty() || !scene.point_lights.is_empty();
+    scene.render.vpls > 0 || (scene.render.shadows && lights)
 }
 
 /// Distinct variants, and for each mesh its own, and the one from outside if it is closed.

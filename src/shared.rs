@@ -106,6 +106,26 @@ shared! {
         BVH_LEAF_BIT = 2147483648;
         /// Cells of the nodes' grid along an axis: their corners are 16-bit numbers.
         BVH_CELLS = 65535;
+        /// Triangle of a ray that met nothing.
+        NO_HIT = 4294967295;
+        /// Orders of the nodes for the nearest hit: one for each octant of directions, near children first.
+        HIT_ORDERS = 8;
+        /// Texels of a [`HitTriangle`].
+        HIT_TRIANGLE_TEXELS = 4;
+        /// Of a [`HitTriangle`]'s surface: the material's number.
+        HIT_MATERIAL_BITS = 24;
+        /// Set in it where tangents follow, see [`HitTangents`].
+        HIT_TANGENTS = 2147483648;
+        /// Set in it where the triangle is a luminaire's.
+        HIT_LUMINAIRE = 1073741824;
+        /// Bits of the model in `HitMaterial::kind`.
+        HIT_MODEL_BITS = 3;
+        /// Set in it: alpha = roughness².
+        HIT_SQUARED_ROUGHNESS = 8;
+        /// Set in it: both sides are drawn.
+        HIT_TWO_SIDED = 16;
+        /// Texels of a [`HitMaterial`]; its [`HitTexture`]s follow.
+        HIT_MATERIAL_TEXELS = 5;
         /// `AreaRecord::kind`: a polygon, rectangles among them.
         AREA_POLYGON = 0;
         /// An ellipse.
@@ -350,6 +370,12 @@ shared! {
             SCENE_AREA_LIGHTS = 3: Sampled;
             /// Tables of linearly transformed cosines, two layers each: shapes, moments.
             SCENE_LTC = 4: Sampled;
+            /// What a nearest hit is found and shaded by: [`BvhNode`](super::BvhNode)s in `HIT_ORDERS` orders,
+            /// [`HitTriangle`](super::HitTriangle)s, [`HitTangents`](super::HitTangents), and textures.
+            SCENE_HITS = 5: Sampled in Compute;
+            /// A [`HitMaterial`](super::HitMaterial) and up to `MATERIAL_TEXTURES` [`HitTexture`](super::HitTexture)s every
+            /// `1 << MATERIAL_RECORD_LOG2` texels.
+            SCENE_HIT_MATERIALS = 6: Sampled in Compute;
         }
         /// A material: its textures and constants.
         material = 2 {
@@ -765,6 +791,118 @@ shared! {
             words: uint;
             /// Texels across and down, 16 bits each.
             size: uint;
+        }
+        /// What a hit needs of a triangle, in the order of the tree's.
+        HitTriangle {
+            /// Shading normal of the first corner.
+            normal_a: vec3;
+            /// The material's number, or with `HIT_TANGENTS` the texel of [`HitTangents`] in this texture; or
+            /// `HIT_LUMINAIRE`.
+            surface: uint;
+            /// Of the second corner.
+            normal_b: vec3;
+            /// First texture coordinate of the first corner.
+            u_a: float;
+            /// Of the third.
+            normal_c: vec3;
+            /// Second.
+            v_a: float;
+            /// Texture coordinates of the other corners.
+            uv_bc: vec4;
+        }
+        /// Tangents of a triangle whose material has a direction, zero without texture coordinates.
+        HitTangents {
+            /// First corner.
+            a: vec3;
+            /// The material's number.
+            material: uint;
+            /// Second corner.
+            b: vec3;
+            /// 0.
+            spare_b: uint;
+            /// Third corner.
+            c: vec3;
+            /// 0.
+            spare_c: uint;
+        }
+        /// A material's constants: rows by `Parameter`.
+        HitMaterial {
+            /// `Parameter::Color`.
+            color: vec3;
+            /// Model and `HIT_*` flags.
+            kind: uint;
+            /// `Parameter::Specular`.
+            specular: vec3;
+            /// How many parameters have textures.
+            textures: uint;
+            /// `Parameter::Roughness`.
+            roughness: float;
+            /// `Parameter::Aspect`; 1 for models without one.
+            aspect: float;
+            /// `Parameter::Sigma`.
+            sigma: float;
+            /// `Parameter::Eta`.
+            eta: float;
+            /// `Parameter::Metallic`.
+            metallic: float;
+            /// `Parameter::SpecularTint`.
+            specular_tint: float;
+            /// `Parameter::Sheen`.
+            sheen: float;
+            /// `Parameter::SheenTint`.
+            sheen_tint: float;
+            /// `Parameter::Clearcoat`.
+            clearcoat: float;
+            /// `Parameter::ClearcoatGloss`.
+            clearcoat_gloss: float;
+            /// `Parameter::Subsurface`.
+            subsurface: float;
+            /// 0.
+            spare: uint;
+        }
+        /// A parameter's texture.
+        HitTexture {
+            /// `Parameter`.
+            parameter: uint;
+            /// First texel. Each holds four halves of the texture's and four of its right neighbour's.
+            first: uint;
+            /// Texels across.
+            width: uint;
+            /// Texels down.
+            height: uint;
+        }
+        /// What the probe of hits answers.
+        HitProbeRow {
+            /// Of the surface.
+            position: vec3;
+            /// Distance.
+            t: float;
+            /// On the ray's side.
+            geometric_normal: vec3;
+            /// Of the tree, or `NO_HIT`.
+            triangle: uint;
+            /// First axis of the shading frame.
+            tangent: vec3;
+            /// 1: met from the front.
+            front: uint;
+            /// Second.
+            bitangent: vec3;
+            /// 1: has a material on this side.
+            drawn: uint;
+            /// Third.
+            normal: vec3;
+            /// `MODEL_*`.
+            model: uint;
+            /// Color rgb, alpha_x.
+            color_alpha_x: vec4;
+            /// Specular rgb, alpha_y.
+            specular_alpha_y: vec4;
+            /// Sigma in degrees, eta, metallic, roughness.
+            surface: vec4;
+            /// Specular tint, sheen, sheen tint, clearcoat.
+            tints: vec4;
+            /// Clearcoat gloss, subsurface; weights of the second and third corner.
+            rest: vec4;
         }
         /// A row of the occlusion probe.
         RayProbeRow {

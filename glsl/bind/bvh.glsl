@@ -47,7 +47,8 @@ bool triangle_hides(BvhRay ray, uint texel) {
     vec3 b = uintBitsToFloat(bvh_texel(texel + 1u).xyz);
     vec3 c = uintBitsToFloat(bvh_texel(texel + 2u).xyz);
     vec3 weights;
-    bool met = triangle_met(ray, uintBitsToFloat(a.xyz), b, c, weights);
+    float t;
+    bool met = triangle_met(ray, uintBitsToFloat(a.xyz), b, c, weights, t);
     return met && (a.w == 0u || mask_holds(a.w, weights));
 }
 

@@ -18,6 +18,7 @@ layout(constant_id = 9) const bool PERSPECTIVE = true;
 
 #include "lib/bsdf.glsl"
 #include "lib/cluster.glsl"
+#include "lib/frame.glsl"
 
 // Intensities end at 1e18, so a single light cannot overflow; the sum of a million can, and infinity is no radiance.
 const vec3 MAX_RADIANCE = vec3(1e30);
@@ -27,19 +28,6 @@ struct Surface {
     mat3 world_from_local;  // columns: tangent, bitangent, normal
     Bsdf bsdf;
 };
-
-vec3 any_tangent(vec3 n) {
-    float s = n.z < 0.0 ? -1.0 : 1.0;  // Duff et al. 2017
-    float a = -1.0 / (s + n.z);
-    return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
-}
-
-// `t` made orthogonal to n and unit, or any tangent where nothing is left of it.
-vec3 tangent_to(vec3 n, vec3 t) {
-    t -= n * dot(n, t);
-    float t2 = dot(t, t);
-    return t2 > 1e-12 ? t * inversesqrt(t2) : any_tangent(n);
-}
 
 // A normal map's normal bent just far enough to face the viewer: one that faces away belongs to a bump's far side,
 // which the viewer cannot see, and would leave a black hole.

@@ -33,7 +33,8 @@ BvhRay bvh_ray(BvhHeader grid, vec3 origin, vec3 direction, float t_min, float t
     ray.cell_above = cell + error;
     ray.cell_below = cell - error;
     // z is the axis along which the direction is longest. Zeros and ones of the matrix are exact, so that a triangle's
-    // corner becomes the same numbers in whichever triangle it is. Winding does not matter here.
+    // corner becomes the same numbers in whichever triangle it is. The axes keep their cyclic order, so a triangle's winding
+    // is what it was, or, against the axis, the reverse.
     vec3 d = direction;
     vec3 size = abs(d);
     if (size.x >= size.y && size.x >= size.z) {
@@ -41,9 +42,9 @@ BvhRay bvh_ray(BvhHeader grid, vec3 origin, vec3 direction, float t_min, float t
         ray.shear[0].x = -d.y / d.x;
         ray.shear[1].x = -d.z / d.x;
     } else if (size.y >= size.z) {
-        ray.shear = mat3(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0 / d.y, 0.0);
-        ray.shear[0].y = -d.x / d.y;
-        ray.shear[1].y = -d.z / d.y;
+        ray.shear = mat3(0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0 / d.y, 0.0);
+        ray.shear[0].y = -d.z / d.y;
+        ray.shear[1].y = -d.x / d.y;
     } else {
         ray.shear = mat3(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 / d.z);
         ray.shear[0].z = -d.x / d.z;
@@ -65,7 +66,7 @@ bool box_met(BvhRay ray, BvhNode node) {
 }
 
 // Whether the ray meets a triangle between its ends, from either side, and where: `weights` of the corners, scaled by
-// their sum, which is not 0 then.
+// their sum, which is not 0 then, and the distance, scaled by the sum's absolute value.
 //
 // A hit counts only where its distance is above what the rounding of its own arithmetic can make of 0: from a point of
 // the triangle's plane nothing is met, however large the triangle is. In terms of the distance from that plane, this
@@ -73,7 +74,7 @@ bool box_met(BvhRay ray, BvhNode node) {
 // leave the middle of a triangle of 1 km meet that triangle again.
 const float PLANE_ERROR = 1e-6;
 
-bool triangle_met(BvhRay ray, vec3 a, vec3 b, vec3 c, out vec3 weights) {
+bool triangle_met(BvhRay ray, vec3 a, vec3 b, vec3 c, out vec3 weights, out float t) {
     precise vec3 pa = (a - ray.origin) * ray.shear;
     precise vec3 pb = (b - ray.origin) * ray.shear;
     precise vec3 pc = (c - ray.origin) * ray.shear;
@@ -82,7 +83,7 @@ bool triangle_met(BvhRay ray, vec3 a, vec3 b, vec3 c, out vec3 weights) {
     precise float w = pb.x * pa.y - pb.y * pa.x;
     weights = vec3(u, v, w);
     float sum = u + v + w;
-    float t = u * pa.z + v * pb.z + w * pc.z;
+    t = u * pa.z + v * pb.z + w * pc.z;
     float side = sum < 0.0 ? -1.0 : 1.0;
     bool within = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
     vec3 reach = max(abs(pa), max(abs(pb), abs(pc)));

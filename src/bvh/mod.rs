@@ -7,9 +7,11 @@
 //!    no stack. `grid.rs` packs each of them into a texel.
 //! 3. [`Bvh::texels`]: nodes, triangles, texture coordinates of masked triangles, and masks (`masks.rs`) in one run of
 //!    texels.
+//! 4. [`Bvh::ordered_nodes`]: the nodes in other orders, for nearest hits (`order.rs`).
 
 mod grid;
 mod masks;
+mod order;
 mod split;
 
 use crate::scene::{Luminaire, Scene};
@@ -72,30 +74,48 @@ impl Bvh {
         Self { nodes, triangles, masked: masks.triangles, masks: masks.words }
     }
 
-    /// Triangles in the tree.
+    /// In the order of the leaves.
     #[must_use]
-    pub fn triangle_count(&self) -> usize {
-        self.triangles.len()
+    pub fn triangles(&self) -> &[BvhTriangle] {
+        &self.triangles
     }
 
-    /// Everything as the device's texture holds it, from the header on.
+    /// The nodes in [`HIT_ORDERS`](crate::shared::HIT_ORDERS) orders, one after the other.
     #[must_use]
-    pub fn texels(&self) -> Vec<Texel> {
-        let triangles_at = BVH_HEADER_TEXELS + self.nodes.len() as u32;
-        let masked_at = triangles_at + self.triangles.len() as u32 * BVH_TRIANGLE_TEXELS;
-        let masks_at = masked_at + 2 * self.masked.len() as u32;
-        let grid = self.nodes.first().map_or(Grid::UNIT, |root| Grid::new(&root.bounds));
-        let header = BvhHeader {
-            lower: grid.lower.to_array(),
-            nodes: self.nodes.len() as u32,
-            cell: grid.cell.to_array(),
-            triangles: self.triangles.len() as u32,
-        };
+    pub fn ordered_nodes(&self) -> Vec<BvhNode> {
+        order::orders(&self.nodes).iter().flat_map(|nodes| self.packed(nodes)).collect()
+    }
+
+    fn triangles_at(&self) -> u32 {
+        BVH_HEADER_TEXELS + self.nodes.len() as u32
+    }
+
+    fn grid(&self) -> Grid {
+        self.nodes.first().map_or(Grid::UNIT, |root| Grid::new(&root.bounds))
+    }
+
+    fn packed(&self, nodes: &[Node]) -> Vec<BvhNode> {
+        let (grid, triangles_at) = (self.grid(), self.triangles_at());
         let node = |node: &Node| {
             let [x, y, z] = grid.cells(&node.bounds);
             let (first, count) = node.items;
             let leaf = BVH_LEAF_BIT | (triangles_at + first * BVH_TRIANGLE_TEXELS) << BVH_COUNT_BITS | count;
             BvhNode { x, y, z, next: if count == 0 { node.skip } else { leaf } }
+        };
+        nodes.iter().map(node).collect()
+    }
+
+    /// Everything as the device's texture holds it, from the header on.
+    #[must_use]
+    pub fn texels(&self) -> Vec<Texel> {
+        let masked_at = self.triangles_at() + self.triangles.len() as u32 * BVH_TRIANGLE_TEXELS;
+        let masks_at = masked_at + 2 * self.masked.len() as u32;
+        let grid = self.grid();
+        let header = BvhHeader {
+            lower: grid.lower.to_array(),
+            nodes: self.nodes.len() as u32,
+            cell: grid.cell.to_array(),
+            triangles: self.triangles.len() as u32,
         };
         let triangle = |triangle: &BvhTriangle| BvhTriangle {
             // Numbered from 1; 0 is no mask.
@@ -104,7 +124,7 @@ impl Bvh {
         };
         let masked =
             |masked: &MaskedTriangle| MaskedTriangle { words: 4 * masks_at + masked.words, ..*masked };
-        let nodes: Vec<_> = self.nodes.iter().map(node).collect();
+        let nodes = self.packed(&self.nodes);
         let triangles: Vec<_> = self.triangles.iter().map(triangle).collect();
         let masked: Vec<_> = self.masked.iter().map(masked).collect();
         let parts: [&[Texel]; 5] = [
@@ -174,6 +194,39 @@ mod tests {
     }
 
     #[test]
+    fn orders_hold_the_same_tree_with_near_children_first() {
+        let bvh = Bvh::over(triangles(3000), Masks::default());
+        let leaves = |nodes: &[Node]| {
+            let mut leaves: Vec<_> =
+                nodes.iter().map(|node| node.items).filter(|items| items.1 > 0).collect();
+            leaves.sort_unstable();
+            leaves
+        };
+        let orders = order::orders(&bvh.nodes);
+        for (octant, nodes) in orders.iter().enumerate() {
+            assert_eq!((nodes.len(), leaves(nodes)), (bvh.nodes.len(), leaves(&bvh.nodes)));
+            let mut near = 0;
+            for (index, node) in nodes.iter().enumerate() {
+                let end = node.skip as usize;
+                assert!(end > index && end <= nodes.len() && (node.items.1 == 0 || end == index + 1));
+                let inside = |below: &Node| {
+                    below.bounds.lower.cmpge(node.bounds.lower).all()
+                        && below.bounds.upper.cmple(node.bounds.upper).all()
+                };
+                assert!(nodes[index..end].iter().all(inside));
+                if node.items.1 == 0 {
+                    let [first, second] =
+                        [index + 1, nodes[index + 1].skip as usize].map(|i| nodes[i].bounds);
+                    let apart = (second.lower + second.upper) - (first.lower + first.upper);
+                    let along = Vec3::from_array([0, 1, 2].map(|i| [1.0, -1.0][octant >> i & 1])) * apart;
+                    near += usize::from(along[apart.abs().max_position()] >= 0.0);
+                }
+            }
+            assert_eq!(near, nodes.iter().filter(|node| node.items.1 == 0).count());
+        }
+    }
+
+    #[test]
     fn same_tree_on_any_number_of_threads() {
         let all = triangles(30_000);
         let with = |threads| {
@@ -189,7 +242,7 @@ mod tests {
         let corner = Vertex { position: vec3(1.0, 2.0, 3.0).to_array(), ..Vertex::default() };
         let mesh = Mesh { vertices: vec![corner], triangles: vec![[0; 3]; 100], material: 0 };
         let bvh = Bvh::new(&Scene { meshes: vec![mesh], ..Scene::default() }, Vec3::ZERO);
-        assert_eq!(bvh.triangle_count(), 100);
+        assert_eq!(bvh.triangles().len(), 100);
         assert!(bvh.texels()[..2].iter().flatten().all(|&word| f32::from_bits(word).is_finite()));
     }
 }

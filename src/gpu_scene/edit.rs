@@ -41,6 +41,7 @@ impl GpuScene {
         }
         self.records[index] = record(material);
         self.record_buffer.write_from(index, &self.records[index..=index])?;
+        self.hits.adopt(scene, index)?;
         Ok(true)
     }
 

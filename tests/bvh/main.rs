@@ -1,10 +1,13 @@
-//! `occluded` of glsl/bind/bvh.glsl on the device, unchanged, against double precision.
+//! `occluded` of glsl/bind/bvh.glsl and hits of glsl/bind/hit.glsl on the device, unchanged, against double precision.
 #![allow(clippy::unwrap_used, reason = "a test that panics fails")]
 
 #[path = "../common/mod.rs"]
 mod common;
 mod exact;
+mod hits;
 mod probe;
 mod scenes;
 mod soups;
+mod speed;
 mod starts;
+mod surfaces;

@@ -38,6 +38,43 @@ pub(crate) fn soup(triangles: &[[Vec3; 3]]) -> Scene {
     Scene { meshes: vec![mesh], ..square::scene() }
 }
 
+/// `count` triangles of about `size` in a cube of half edge `half`.
+pub(crate) fn random_soup(
+    random: &mut Random,
+    count: usize,
+    center: Vec3,
+    half: f32,
+    size: f32,
+) -> Vec<[Vec3; 3]> {
+    (0..count)
+        .map(|_| {
+            let place = center + random.place() * half;
+            // Sliver or compact.
+            let stretch = random.number().powi(3);
+            let [a, b] = [random.direction() * size, random.direction() * (size * stretch)];
+            [place, place + a, place + b]
+        })
+        .collect()
+}
+
+/// A closed surface of 1152 triangles, of radius 1.7.
+pub(crate) fn sphere(center: Vec3) -> Vec<[Vec3; 3]> {
+    let n = 24;
+    let at = |i: u32, j: u32| {
+        let (phi, theta) =
+            ((i % n) as f32 / n as f32 * std::f32::consts::TAU, j as f32 / n as f32 * std::f32::consts::PI);
+        let ring = if j == 0 || j == n { 0.0 } else { theta.sin() };
+        vec3(ring * phi.cos(), theta.cos(), ring * phi.sin()) * 1.7 + center
+    };
+    let quads = (0..n).flat_map(|i| (0..n).map(move |j| [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]));
+    quads
+        .flat_map(|quad| {
+            let [a, b, c, d] = quad.map(|(i, j)| at(i, j));
+            [[a, b, c], [a, c, d]]
+        })
+        .collect()
+}
+
 /// All triangles of a scene's meshes.
 pub(crate) fn triangles(scene: &Scene) -> Vec<[DVec3; 3]> {
     let of_mesh = |mesh: &Mesh| {

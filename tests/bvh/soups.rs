@@ -5,7 +5,7 @@ use glam::{Vec3, vec3};
 
 use crate::common::gpu::CheckedGpu;
 use crate::exact::judge;
-use crate::probe::{Random, occluded, ray, soup, triangles};
+use crate::probe::{Random, occluded, random_soup, ray, soup, sphere, triangles};
 use amas::shared::RayProbeRow;
 
 const RAYS: usize = 8192;
@@ -22,19 +22,6 @@ fn rays(random: &mut Random, center: Vec3, half: f32) -> Vec<RayProbeRow> {
         }
     };
     (0..RAYS).map(any).collect()
-}
-
-/// `count` triangles of about `size` in a cube of half edge `half`.
-fn random_soup(random: &mut Random, count: usize, center: Vec3, half: f32, size: f32) -> Vec<[Vec3; 3]> {
-    (0..count)
-        .map(|_| {
-            let place = center + random.place() * half;
-            // Sliver or compact.
-            let stretch = random.number().powi(3);
-            let [a, b] = [random.direction() * size, random.direction() * (size * stretch)];
-            [place, place + a, place + b]
-        })
-        .collect()
 }
 
 #[test]
@@ -98,20 +85,7 @@ fn degenerate_rays_and_triangles() {
 fn nothing_slips_through_a_closed_surface() {
     let gpu = CheckedGpu::open();
     let mut random = Random(3);
-    let n = 24;
-    let at = |i: u32, j: u32| {
-        let (phi, theta) =
-            ((i % n) as f32 / n as f32 * std::f32::consts::TAU, j as f32 / n as f32 * std::f32::consts::PI);
-        let ring = if j == 0 || j == n { 0.0 } else { theta.sin() };
-        vec3(ring * phi.cos(), theta.cos(), ring * phi.sin()) * 1.7 + vec3(0.3, 0.1, -0.2)
-    };
-    let quads = (0..n).flat_map(|i| (0..n).map(move |j| [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]));
-    let sphere: Vec<_> = quads
-        .flat_map(|quad| {
-            let [a, b, c, d] = quad.map(|(i, j)| at(i, j));
-            [[a, b, c], [a, c, d]]
-        })
-        .collect();
+    let sphere = sphere(vec3(0.3, 0.1, -0.2));
     let rows: Vec<_> = (0..4 * RAYS)
         .map(|i| {
             let origin = vec3(0.3, 0.1, -0.2) + random.place() * 0.8;

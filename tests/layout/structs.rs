@@ -8,8 +8,19 @@ use crate::modules;
 use crate::spirv::{Module, decoration};
 
 /// Structs that shaders take from textures.
-const IN_TEXELS: [&str; 7] =
-    ["LightNode", "MomentNode", "BvhHeader", "BvhNode", "BvhTriangle", "MaskedTriangle", "AreaRecord"];
+const IN_TEXELS: [&str; 11] = [
+    "LightNode",
+    "MomentNode",
+    "BvhHeader",
+    "BvhNode",
+    "BvhTriangle",
+    "MaskedTriangle",
+    "HitTriangle",
+    "HitTangents",
+    "HitMaterial",
+    "HitTexture",
+    "AreaRecord",
+];
 
 #[test]
 fn structs_lie_in_shaders_as_they_do_in_rust() {
@@ -66,6 +77,20 @@ fn occluders_fill_whole_texels() {
     let masked = of("MaskedTriangle");
     assert_eq!(masked.fields, [("uv_ab", 0), ("uv_c", 16), ("words", 24), ("size", 28)]);
     assert_eq!(masked.size, 32);
+}
+
+/// As glsl/bind/hit.glsl reads them.
+#[test]
+fn hits_fill_whole_texels() {
+    let of = |name| LAYOUTS.iter().find(|layout| layout.name == name).unwrap();
+    let places = |name| of(name).fields.iter().map(|field| field.1).collect::<Vec<_>>();
+    assert_eq!(places("HitTriangle"), [0, 12, 16, 28, 32, 44, 48]);
+    assert_eq!(of("HitTriangle").size, 16 * shared::HIT_TRIANGLE_TEXELS as usize);
+    assert_eq!(places("HitTangents"), [0, 12, 16, 28, 32, 44]);
+    assert_eq!(of("HitTangents").size, 16 * 3);
+    assert_eq!(places("HitMaterial"), [0, 12, 16, 28, 32, 36, 40, 44, 48, 52, 56, 60, 64, 68, 72, 76]);
+    assert_eq!(of("HitMaterial").size, 16 * shared::HIT_MATERIAL_TEXELS as usize);
+    assert_eq!((places("HitTexture"), of("HitTexture").size), (vec![0, 4, 8, 12], 16));
 }
 
 /// `area_light` in glsl/bind/area_lights.glsl takes it apart.

@@ -1,0 +1,92 @@
+//! Materials' records, in a texture of their own, so that an edit of one uploads little.
+
+use super::texels::{Heap, Place};
+use crate::bvh::Texel;
+use crate::scene::{Material, Model, Parameter, Scene};
+use crate::shared::{
+    HIT_MATERIAL_TEXELS, HIT_SQUARED_ROUGHNESS, HIT_TWO_SIDED, HitMaterial, HitTexture, MATERIAL_RECORD_LOG2,
+    MATERIAL_TEXTURES, MATERIALS_PER_ROW_LOG2,
+};
+
+/// Texels from one record to the next.
+const STRIDE: usize = 1 << MATERIAL_RECORD_LOG2;
+const _: () = assert!(HIT_MATERIAL_TEXELS + MATERIAL_TEXTURES <= 1 << MATERIAL_RECORD_LOG2);
+/// Texels across.
+pub(super) const WIDTH: usize = STRIDE << MATERIALS_PER_ROW_LOG2;
+
+/// Parameters that a BSDF reads, by which textures count: not normal maps, nor masks, which lie beside the tree.
+const READ: usize = Parameter::Normal as usize;
+
+pub(super) struct Materials {
+    /// Whole rows.
+    pub(super) texels: Vec<Texel>,
+    heap: Heap,
+}
+
+impl Materials {
+    pub(super) fn new(scene: &Scene, heap: Heap) -> Self {
+        let count = (scene.materials.len() * STRIDE).next_multiple_of(WIDTH).max(WIDTH);
+        let mut materials = Self { texels: vec![[0; 4]; count], heap };
+        (0..scene.materials.len()).for_each(|index| materials.set(scene, index));
+        materials
+    }
+
+    /// Takes a material over from the scene, whose textures are those that the heap was made of.
+    pub(super) fn set(&mut self, scene: &Scene, index: usize) {
+        let material = &scene.materials[index];
+        let textures = textures(material, &self.heap);
+        let record = record(material, textures.len() as u32);
+        let texels = &mut self.texels[index * STRIDE..][..STRIDE];
+        let (constants, slots) = texels.split_at_mut(HIT_MATERIAL_TEXELS as usize);
+        constants.copy_from_slice(bytemuck::cast_slice(std::slice::from_ref(&record)));
+        slots[..textures.len()].copy_from_slice(bytemuck::cast_slice(&textures));
+    }
+}
+
+/// Whether its tangents matter.
+pub(super) fn is_anisotropic(material: &Material) -> bool {
+    let aspect = material.value(Parameter::Aspect);
+    let round = [Model::Matte, Model::Plastic].contains(&material.model);
+    !round && (aspect.texture.is_some() || (aspect.constant[0] - 1.0).abs() > 1e-6)
+}
+
+/// Textures of more parameters than a material may have are refused where pipelines are chosen.
+fn textures(material: &Material, heap: &Heap) -> Vec<HitTexture> {
+    let values = (0..).zip(&material.parameters[..READ]);
+    let textured = values.filter_map(|(parameter, value)| Some((parameter, heap.place(value.texture?)?)));
+    let textured = textured.take(MATERIAL_TEXTURES as usize);
+    textured
+        .map(|(parameter, Place { first, size: [width, height] })| HitTexture {
+            parameter,
+            first,
+            width,
+            height,
+        })
+        .collect()
+}
+
+fn record(material: &Material, textures: u32) -> HitMaterial {
+    let color = |parameter| material.value(parameter).constant;
+    let scalar = |parameter| color(parameter)[0];
+    let flag = |flag, set| if set { flag } else { 0 };
+    HitMaterial {
+        color: color(Parameter::Color),
+        kind: material.model as u32
+            | flag(HIT_SQUARED_ROUGHNESS, material.squared_roughness)
+            | flag(HIT_TWO_SIDED, material.two_sided),
+        specular: color(Parameter::Specular),
+        textures,
+        roughness: scalar(Parameter::Roughness),
+        aspect: if is_anisotropic(material) { scalar(Parameter::Aspect) } else { 1.0 },
+        sigma: scalar(Parameter::Sigma),
+        eta: scalar(Parameter::Eta),
+        metallic: scalar(Parameter::Metallic),
+        specular_tint: scalar(Parameter::SpecularTint),
+        sheen: scalar(Parameter::Sheen),
+        sheen_tint: scalar(Parameter::SheenTint),
+        clearcoat: scalar(Parameter::Clearcoat),
+        clearcoat_gloss: scalar(Parameter::ClearcoatGloss),
+        subsurface: scalar(Parameter::Subsurface),
+        spare: 0,
+    }
+}
