@@ -8,8 +8,17 @@ use crate::modules;
 use crate::spirv::{Module, decoration};
 
 /// Structs that shaders take from textures.
-const IN_TEXELS: [&str; 7] =
-    ["LightNode", "MomentNode", "BvhHeader", "BvhNode", "BvhTriangle", "MaskedTriangle", "AreaRecord"];
+const IN_TEXELS: [&str; 9] = [
+    "LightNode",
+    "MomentNode",
+    "BvhHeader",
+    "BvhNode",
+    "BvhTriangle",
+    "MaskedTriangle",
+    "AreaRecord",
+    "VirtualLight",
+    "VirtualNode",
+];
 
 #[test]
 fn structs_lie_in_shaders_as_they_do_in_rust() {
@@ -66,6 +75,16 @@ fn occluders_fill_whole_texels() {
     let masked = of("MaskedTriangle");
     assert_eq!(masked.fields, [("uv_ab", 0), ("uv_c", 16), ("words", 24), ("size", 28)]);
     assert_eq!(masked.size, 32);
+}
+
+/// Two texels of a vector and a scalar each.
+#[test]
+fn virtual_lights_fill_two_texels() {
+    let of = |name| LAYOUTS.iter().find(|layout| layout.name == name).unwrap();
+    let [light, node] = [of("VirtualLight"), of("VirtualNode")];
+    assert_eq!(light.fields, [("position", 0), ("normal", 12), ("color", 16), ("extra", 28)]);
+    assert_eq!(node.fields, [("lower", 0), ("power", 12), ("upper", 16), ("cone", 28)]);
+    assert_eq!([light.size, node.size], [32, 32]);
 }
 
 /// `area_light` in glsl/bind/area_lights.glsl takes it apart.
