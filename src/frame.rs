@@ -23,7 +23,7 @@ use crate::gpu::{Buffer, BufferUse, Commands, DescriptorSets, Device, Timestamps
 use crate::gpu_scene::GpuScene;
 use crate::passes::cluster::{Capacity, ClusterPass, ClusterTargets};
 use crate::passes::forward::{Forward, Sample, Work};
-use crate::passes::gather::{Gather, Gathered, GatheredLights};
+use crate::passes::gather::{Gather, GatheredLights};
 use crate::passes::prepass::Prepass;
 use crate::passes::resolve::Resolve;
 use crate::passes::{PassInputs, View};

@@ -25,6 +25,7 @@
 //! | [`light_tree`] | lights in Hilbert order, the tree over them, and one with moments over lights without a range |
 //! | [`area_lights`] | area lights as texels: outlines, convex pieces, cubature, textures |
 //! | [`bvh`] | a tree over what hides lights: triangles, masks, luminaires |
+//! | [`virtual_lights`] | light paths from every emitter, the lights they leave on surfaces, a tree to choose them by |
 //! | [`camera_constants`] | from a camera to what the shaders know of it |
 //! | [`draws`] | runs of triangles: which a camera can see, and from which side |
 //! | [`gpu_scene`] | the scene on the device |
@@ -56,6 +57,7 @@ pub mod reference;
 pub mod scene;
 pub mod shared;
 pub mod targets;
+pub mod virtual_lights;
 
 pub use error::{Error, Result};
 pub use frame::{Frame, FrameInputs, FrameSettings, Timings};

@@ -126,6 +126,8 @@ shared! {
         HIT_TWO_SIDED = 16;
         /// Texels of a [`HitMaterial`]; its [`HitTexture`]s follow.
         HIT_MATERIAL_TEXELS = 5;
+        /// Normal of a virtual light that shines alike in all directions: no unit vector's octahedral code.
+        VIRTUAL_ISOTROPIC = 2147516416;
         /// `AreaRecord::kind`: a polygon, rectangles among them.
         AREA_POLYGON = 0;
         /// An ellipse.
@@ -702,6 +704,30 @@ shared! {
             extent_z: uint;
             /// Lights.
             count: uint;
+        }
+        /// A light on a surface that stands for reflected light, a point of an area light, or a point light.
+        VirtualLight {
+            /// Relative to the device's origin, a little off the surface; metres.
+            position: vec3;
+            /// Octahedral, two 16-bit numbers with a sign (`unpackSnorm2x16`): geometric normal of the lit side, or
+            /// `VIRTUAL_ISOTROPIC`.
+            normal: uint;
+            /// A receiver at distance d gets this times cosθ/d² of the light; of an isotropic light its intensity.
+            color: vec3;
+            /// Bounces before it, 0 is emission; of a point light the bits of 1/range², 0 without a range.
+            extra: uint;
+        }
+        /// A node of the tree over virtual lights, a complete binary heap: children of node i are 2i and 2i + 1.
+        VirtualNode {
+            /// Lower corner of the lights' positions.
+            lower: vec3;
+            /// Sum of the lights' mean channels; 0 where there is no light.
+            power: float;
+            /// Upper corner.
+            upper: vec3;
+            /// Cone of the normals: its axis octahedral, x and y of 12 bits with a sign each, in 2047ths; above them the
+            /// cosine of the half angle in 255ths, rounded down; 0 is the whole sphere.
+            cone: uint;
         }
         /// An area light. Vectors that a kind does not have are 0; first vertices and points are those of the texture.
         AreaRecord {

@@ -46,7 +46,7 @@ impl<'a> Rounds<'a> {
             return GatheredLights::new(device, [&self.points, &none, &none], 1.0);
         };
         let set = tracer.trace(self.scene.render.vpls as usize, u64::from(round));
-        let [emitters, virtuals] = [VirtualTree::new(set.emitters), VirtualTree::new(set.bounced)];
+        let [emitters, virtuals] = [VirtualTree::new(&set.emitters), VirtualTree::new(&set.bounced)];
         GatheredLights::new(device, [&self.points, &emitters, &virtuals], set.spacing)
     }
 }

@@ -156,7 +156,7 @@ impl Frame {
         [x, y, self.slices]
     }
 
-    fn image(&self, pixels: Vec<[f32; 3]>) -> HdrImage {
+    pub(super) fn image(&self, pixels: Vec<[f32; 3]>) -> HdrImage {
         HdrImage { width: self.settings.size[0], height: self.settings.size[1], pixels }
     }
 }

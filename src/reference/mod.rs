@@ -11,9 +11,9 @@ pub mod lights;
 mod path;
 pub mod rays;
 mod render;
-mod sampler;
+pub(crate) mod sampler;
 pub mod shading;
-mod texture;
+pub(crate) mod texture;
 mod tree;
 pub mod visibility;
 

@@ -91,7 +91,7 @@ impl<'a> Geometry<'a> {
 
     /// The nearest triangle beyond `t_min`, from either side, except what an alpha mask cuts and the triangle `except`
     /// (mesh, triangle), on which the ray begins.
-    pub(super) fn wall(&self, ray: &Ray, t_min: f64, except: (usize, usize)) -> Option<Hit> {
+    pub(crate) fn wall(&self, ray: &Ray, t_min: f64, except: (usize, usize)) -> Option<Hit> {
         self.first(ray, [t_min, f64::INFINITY], |hit| (hit.mesh, hit.triangle) != except && self.uncut(hit))
     }
 
@@ -139,7 +139,7 @@ impl<'a> Geometry<'a> {
     }
 
     /// The side that a ray hit has a material: a one-sided one's back has none.
-    pub(super) fn drawn(&self, hit: &Hit) -> bool {
+    pub(crate) fn drawn(&self, hit: &Hit) -> bool {
         let mesh = &self.scene.meshes[hit.mesh];
         hit.front || self.scene.materials[mesh.material as usize].two_sided
     }

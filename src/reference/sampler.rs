@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use glam::DVec2;
 
 /// Mixes numbers to a seed; the finaliser of SplitMix64 after each.
-pub(super) fn hash(numbers: &[u64]) -> u64 {
+pub(crate) fn hash(numbers: &[u64]) -> u64 {
     numbers.iter().fold(0x9e37_79b9_7f4a_7c15, |state, number| {
         let mut z = (state ^ number).wrapping_add(0x9e37_79b9_7f4a_7c15);
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -22,43 +22,43 @@ fn uniform(bits: u64) -> f64 {
 
 /// Independent uniform numbers: the hashes of a seed and a counter.
 #[derive(Clone, Debug)]
-pub(super) struct Random {
+pub(crate) struct Random {
     seed: u64,
     count: u64,
 }
 
 impl Random {
     /// The numbers of a seed; different seeds are independent.
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self { seed, count: 0 }
     }
 
     /// The next number in [0, 1).
-    pub(super) fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.count += 1;
         uniform(hash(&[self.seed, self.count]))
     }
 
     /// The next two.
-    pub(super) fn pair(&mut self) -> DVec2 {
+    pub(crate) fn pair(&mut self) -> DVec2 {
         DVec2::new(self.next(), self.next())
     }
 }
 
 /// A shifted R2 sequence in [0, 1)².
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sequence {
+pub(crate) struct Sequence {
     shift: DVec2,
 }
 
 impl Sequence {
     /// The sequence of a seed; different seeds are independent.
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self { shift: DVec2::new(uniform(hash(&[seed, 0])), uniform(hash(&[seed, 1]))) }
     }
 
     /// Point `index`; any prefix is well spread.
-    pub(super) fn point(&self, index: u32) -> DVec2 {
+    pub(crate) fn point(&self, index: u32) -> DVec2 {
         // 1/g and 1/g², g the real root of x³ = x + 1: the most irrational pair.
         const STEP: DVec2 = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
         (self.shift + f64::from(index) * STEP).fract()
@@ -66,7 +66,7 @@ impl Sequence {
 }
 
 /// Shirley and Chiu's area-preserving map of the unit square to the unit disk.
-pub(super) fn concentric_disk(xi: DVec2) -> DVec2 {
+pub(crate) fn concentric_disk(xi: DVec2) -> DVec2 {
     let p = 2.0 * xi - DVec2::ONE;
     if p == DVec2::ZERO {
         return DVec2::ZERO;

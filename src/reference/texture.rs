@@ -7,7 +7,7 @@ use crate::scene::{Texels, Texture};
 
 /// What lies beyond the borders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Wrap {
+pub(crate) enum Wrap {
     /// The picture again: material textures.
     Repeat,
     /// The border's texel: light textures.
@@ -16,7 +16,7 @@ pub(super) enum Wrap {
 
 /// The colour at `uv`, scene-linear; (0, 0) is the lower left corner and row 0 is on top. Each texel is decoded before
 /// it is interpolated, as sRGB image formats of a GPU do.
-pub(super) fn sample(texture: &Texture, uv: DVec2, wrap: Wrap) -> DVec3 {
+pub(crate) fn sample(texture: &Texture, uv: DVec2, wrap: Wrap) -> DVec3 {
     let size = DVec2::new(f64::from(texture.width), f64::from(texture.height));
     let at = DVec2::new(uv.x, 1.0 - uv.y) * size - 0.5;
     let (corner, s) = (at.floor(), at - at.floor());

@@ -12,7 +12,7 @@ use super::area::Emitter;
 use super::rays::{Geometry, Hit, Ray};
 
 /// What a shadow ray leaves out at each end, relative to the coordinates and distances in play, whose rounding is 1e-16.
-const MARGIN: f64 = 1e-9;
+pub(crate) const MARGIN: f64 = 1e-9;
 
 /// Everything that can be in the way.
 #[derive(Debug)]

@@ -9,6 +9,7 @@ use crate::spirv::{Module, decoration};
 
 /// Structs that shaders take from textures.
 const IN_TEXELS: [&str; 11] = [
+const IN_TEXELS: [&str; 9] = [
     "LightNode",
     "MomentNode",
     "BvhHeader",
@@ -20,6 +21,9 @@ const IN_TEXELS: [&str; 11] = [
     "HitMaterial",
     "HitTexture",
     "AreaRecord",
+    "AreaRecord",
+    "VirtualLight",
+    "VirtualNode",
 ];
 
 #[test]
@@ -91,6 +95,14 @@ fn hits_fill_whole_texels() {
     assert_eq!(places("HitMaterial"), [0, 12, 16, 28, 32, 36, 40, 44, 48, 52, 56, 60, 64, 68, 72, 76]);
     assert_eq!(of("HitMaterial").size, 16 * shared::HIT_MATERIAL_TEXELS as usize);
     assert_eq!((places("HitTexture"), of("HitTexture").size), (vec![0, 4, 8, 12], 16));
+/// Two texels of a vector and a scalar each.
+#[test]
+fn virtual_lights_fill_two_texels() {
+    let of = |name| LAYOUTS.iter().find(|layout| layout.name == name).unwrap();
+    let [light, node] = [of("VirtualLight"), of("VirtualNode")];
+    assert_eq!(light.fields, [("position", 0), ("normal", 12), ("color", 16), ("extra", 28)]);
+    assert_eq!(node.fields, [("lower", 0), ("power", 12), ("upper", 16), ("cone", 28)]);
+    assert_eq!([light.size, node.size], [32, 32]);
 }
 
 /// `area_light` in glsl/bind/area_lights.glsl takes it apart.

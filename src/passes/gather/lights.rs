@@ -27,7 +27,7 @@ impl GatheredLights {
             let first = texels.len() as u32;
             texels.extend_from_slice(bytemuck::cast_slice(&tree.nodes));
             texels.extend_from_slice(bytemuck::cast_slice(&tree.lights));
-            [first, if tree.lights.is_empty() { 0 } else { tree.leaves }]
+            [first, if tree.lights.is_empty() { 0 } else { tree.leaves as u32 }]
         });
         texels.resize(texels.len().next_multiple_of(WIDTH).max(WIDTH), [0; 4]);
         let image = Image::new(

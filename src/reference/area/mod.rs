@@ -105,7 +105,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// Distance along a ray at which a luminaire that is seen lies, from either side.
-    pub(super) fn occluder(&self, ray: &Ray) -> Option<f64> {
+    pub(crate) fn occluder(&self, ray: &Ray) -> Option<f64> {
         if self.visible { self.along(ray.origin, ray.direction).map(|seen| seen.distance) } else { None }
     }
 
