@@ -262,6 +262,16 @@ shared! {
         PROBE_INTERVAL = 2;
         /// Form factor of the outline of a cylinder.
         PROBE_LINE = 3;
+        /// Function of the probe of BSDFs whose model is known at run time only: `BSDF_PROBE_*`.
+        SPEC_BSDF_PROBE = 70;
+        /// f, and the density of the sampling.
+        BSDF_PROBE_EVAL = 0;
+        /// A sampled direction, and its density.
+        BSDF_PROBE_SAMPLE = 1;
+        /// The Lambertian share.
+        BSDF_PROBE_LAMBERT = 2;
+        /// As the first, of the material as it comes out of its packing.
+        BSDF_PROBE_PACKED = 3;
         /// Specialisation constants of the probe of area lights' estimators: which, `TIER_*`.
         SPEC_TIER = 40;
         /// How many points it takes; of `TIER_SHIPPED` the `light_error` in thousandths.
@@ -961,11 +971,11 @@ shared! {
             surface: vec4;
             /// Specular tint, sheen, sheen tint, clearcoat.
             tints: vec4;
-            /// Clearcoat gloss, subsurface.
+            /// Clearcoat gloss, subsurface, model.
             rest: vec4;
             /// Local frame.
             wo: vec4;
-            /// Local frame.
+            /// Local frame; where a direction is sampled, two numbers in [0, 1).
             wi: vec4;
         }
         /// A row of the area lights' probe.

@@ -9,6 +9,7 @@
 //   bool ROUGH_MATTE      false: sigma is 0
 //   bool LOBE_SUBSURFACE, LOBE_SHEEN, LOBE_CLEARCOAT, LOBE_METALLIC   false: that weight of principled is 0
 // Constants, because Mesa 22.3.6 runs what lies behind an untaken branch too: a lobe that nobody has must not exist.
+// A compute shader that meets every model in one dispatch defines MODEL as a variable, and the rest as true.
 // SwiftShader keeps even what specialisation constants rule out (27 ns per evaluation of any model, 3 with macros).
 #ifndef LIB_BSDF_GLSL
 #define LIB_BSDF_GLSL
@@ -54,7 +55,7 @@ const uint LOBE_SPECULAR = 1u;  // Trowbridge–Reitz
 const uint LOBE_COAT = 2u;      // GTR1
 const uint LOBES = 3u;
 
-// Whether the model has that lobe; known when the pipeline is compiled.
+// Whether the model has that lobe; known when the pipeline is compiled, if MODEL is.
 bool bsdf_has(uint lobe) {
     if (lobe == LOBE_DIFFUSE) return MODEL != MODEL_METAL;
     if (lobe == LOBE_SPECULAR) return MODEL != MODEL_MATTE;

@@ -13,6 +13,7 @@ layout(constant_id = 6) const bool LOBE_SUBSURFACE = true;
 layout(constant_id = 7) const bool LOBE_METALLIC = true;
 
 #include "lib/bsdf.glsl"
+#include "probe/bsdf_row.glsl"
 
 layout(local_size_x = LINEAR_GROUP) in;
 
@@ -26,20 +27,6 @@ void main() {
         return;
     }
     BsdfProbeRow row = rows[i];
-    BsdfParameters p;
-    p.color = row.color_alpha_x.rgb;
-    p.alpha_x = row.color_alpha_x.w;
-    p.specular = row.specular_alpha_y.rgb;
-    p.alpha_y = row.specular_alpha_y.w;
-    p.sigma = row.surface.x;
-    p.eta = row.surface.y;
-    p.metallic = row.surface.z;
-    p.roughness = row.surface.w;
-    p.specular_tint = row.tints.x;
-    p.sheen = row.tints.y;
-    p.sheen_tint = row.tints.z;
-    p.clearcoat = row.tints.w;
-    p.clearcoat_gloss = row.rest.x;
-    p.subsurface = row.rest.y;
+    BsdfParameters p = row_parameters(row);
     values[i] = vec4(bsdf_eval(bsdf_setup(p, row.wo.xyz), row.wi.xyz), 0.0);
 }

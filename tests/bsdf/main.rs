@@ -5,8 +5,11 @@
 mod common;
 
 mod albedo;
+mod chi_square;
 mod laws;
+mod mixed;
 mod oracle;
 mod probe;
 mod random;
+mod sampling;
 mod tables;

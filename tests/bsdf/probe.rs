@@ -33,8 +33,10 @@ impl Case {
         Self { wo: self.wi, wi: self.wo, ..self }
     }
 
-    fn row(&self) -> BsdfProbeRow {
-        let row = BsdfProbeRow { wo: pack(self.wo, 0.0), wi: pack(self.wi, 0.0), ..BsdfProbeRow::default() };
+    pub(crate) fn row(&self) -> BsdfProbeRow {
+        let rest = [0.0, 0.0, Variant::trimmed(&self.bsdf).model as f32, 0.0];
+        let row =
+            BsdfProbeRow { wo: pack(self.wo, 0.0), wi: pack(self.wi, 0.0), rest, ..BsdfProbeRow::default() };
         match &self.bsdf {
             Bsdf::Matte(m) => BsdfProbeRow {
                 color_alpha_x: pack(m.color, 0.0),
@@ -77,7 +79,7 @@ fn principled_row(m: &Principled, row: BsdfProbeRow) -> BsdfProbeRow {
         specular_alpha_y: pack(DVec3::ZERO, m.ggx.alpha_y),
         surface: [0.0, m.eta, m.metallic, m.roughness].map(|x| x as f32),
         tints: tints.map(|x| x as f32),
-        rest: [m.clearcoat_gloss, m.subsurface, 0.0, 0.0].map(|x| x as f32),
+        rest: [m.clearcoat_gloss as f32, m.subsurface as f32, row.rest[2], 0.0],
         ..row
     }
 }

@@ -12,12 +12,22 @@ struct Matte {
     float inv_cos_o;
 };
 
-Matte matte_setup(BsdfParameters p, vec3 wo) {
+// A, of the Lambertian share, and B.
+struct OrenNayar {
+    float a;
+    float b;
+};
+
+OrenNayar oren_nayar(BsdfParameters p) {
+    if (!ROUGH_MATTE) return OrenNayar(1.0, 0.0);
     float sigma2 = sqr(p.sigma * RADIANS_PER_DEGREE);
-    float a = ROUGH_MATTE ? 1.0 - 0.5 * sigma2 / (sigma2 + 0.33) : 1.0;
-    float b = 0.45 * sigma2 / (sigma2 + 0.09);
+    return OrenNayar(1.0 - 0.5 * sigma2 / (sigma2 + 0.33), 0.45 * sigma2 / (sigma2 + 0.09));
+}
+
+Matte matte_setup(BsdfParameters p, vec3 wo) {
+    OrenNayar shape = oren_nayar(p);
     vec3 lambert = p.color * (INV_PI * faces_viewer(wo));
-    return Matte(a * lambert, b * lambert, wo, 1.0 / max(wo.z, MIN_COSINE));
+    return Matte(shape.a * lambert, shape.b * lambert, wo, 1.0 / max(wo.z, MIN_COSINE));
 }
 
 // s = wi·wo − cosθi cosθo, t = max(cosθi, cosθo); cosθi/t is taken first, since t alone may be 1e-5.

@@ -19,6 +19,10 @@ struct BsdfParameters {
     float subsurface;
 };
 
+// What nobody reads.
+const BsdfParameters NO_BSDF =
+    BsdfParameters(vec3(0.0), vec3(0.0), 1.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+
 // 1 where the viewer is on the normal's side, else 0: multiplied into every lobe at setup, so the loop need not ask.
 float faces_viewer(vec3 wo) { return wo.z > 0.0 ? 1.0 : 0.0; }
 

@@ -1,8 +1,8 @@
 //! The five BSDFs in double precision, in the local frame: z the normal, x the tangent, y = z × x.
 //!
 //! Values are f(wo, wi) in sr⁻¹, RGB, **without** the cosine, and zero unless both directions are above the surface.
-//! Sampling exists for the area lights' estimator ([`crate::reference::area`]): a mixture of a cosine lobe and the
-//! microfacet lobes, whose density need not match f, only cover it.
+//! Sampling, for the area lights' estimator ([`crate::reference::area`]) and for paths, is by a mixture of wide lobes and
+//! the microfacet ones, whose density need not match f, only cover it.
 
 pub(crate) mod fresnel;
 mod matte;
@@ -72,7 +72,7 @@ impl Bsdf {
 
     fn mixture(&self, wo: DVec3) -> Mixture {
         match self {
-            Self::Matte(_) => Mixture::diffuse(),
+            Self::Matte(bsdf) => bsdf.mixture(wo),
             Self::Plastic(bsdf) => bsdf.mixture(wo),
             Self::Metal(bsdf) => Mixture::specular(bsdf.ggx),
             Self::Substrate(bsdf) => bsdf.mixture(wo),

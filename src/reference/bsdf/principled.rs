@@ -97,7 +97,10 @@ impl Principled {
         let f0 = self.f0().max_element();
         let base = (1.0 - self.metallic) * (self.base_color.max_element() + self.sheen * 0.2);
         let coat = 0.25 * self.clearcoat * lerp(0.04, 1.0, weight);
-        Mixture::two(base, f0 + (1.0 - f0) * weight, self.ggx).with_coat(coat, self.coat_alpha())
+        // The subsurface shape is 1/(cosθi + cosθo) of even light where the viewer grazes.
+        let even = 0.5 * self.subsurface * (1.0 - wo.z).max(0.0);
+        let two = Mixture::two(base, f0 + (1.0 - f0) * weight, self.ggx);
+        two.with_even(even).with_coat(coat, self.coat_alpha())
     }
 }
 

@@ -47,6 +47,8 @@ impl Substrate {
     pub(super) fn mixture(&self, wo: DVec3) -> Mixture {
         let weight = schlick_weight(wo.z);
         let specular = self.specular.max_element() * (1.0 - weight) + weight;
-        Mixture::two(self.diffuse.max_element() * (1.0 - weight), specular, self.ggx)
+        // 28/23 makes what the coat lets through the base's exact albedo.
+        let base = (self.diffuse * (DVec3::ONE - self.specular)).max_element() * transmitted(wo.z);
+        Mixture::two(base, specular, self.ggx)
     }
 }
