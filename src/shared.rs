@@ -736,7 +736,8 @@ shared! {
             /// Upper corner.
             upper: vec3;
             /// Cone of the normals: its axis octahedral, x and y of 12 bits with a sign each, in 2047ths; above them the
-            /// cosine of the half angle in 255ths, rounded down; 0 is the whole sphere.
+            /// cosine of the half angle in 255ths, rounded down; 0 is the whole sphere. Of point lights the bits of
+            /// their largest range, infinite without one.
             cone: uint;
         }
         /// An area light. Vectors that a kind does not have are 0; first vertices and points are those of the texture.

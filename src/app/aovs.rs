@@ -25,7 +25,7 @@ enum Variable {
     Surface(Quantity),
     /// Light of the scene's own lights, without background.
     Direct,
-    /// Light of virtual lights, of which there are none yet.
+    /// Light that comes by way of other surfaces.
     Indirect,
 }
 
@@ -89,12 +89,13 @@ pub(super) struct Source<'a> {
 impl Source<'_> {
     /// Writes the variables of the picture last rendered, which is frame `index`.
     pub(super) fn save(&self, frame: &mut Frame, aovs: &[AovOutput], index: u32) -> Result<()> {
+        let [width, height] = self.scene.render.size;
+        let image = |pixels| HdrImage { width, height, pixels };
+        let [indirect, points] = frame.gathered_light()?.unwrap_or_else(|| [HdrImage::new(width, height), HdrImage::new(width, height)]);
         // Variables are those of the pixel's centre, and of light alone.
         if self.scene.render.samples > 1 && !aovs.is_empty() {
             frame.render(&self.inputs(1))?;
         }
-        let [width, height] = self.scene.render.size;
-        let image = |pixels| HdrImage { width, height, pixels };
         for aov in aovs {
             let path = frame_path(&aov.file, index);
             match aov.variable {
@@ -108,20 +109,20 @@ impl Source<'_> {
                             .save(&path)?,
                     }
                 }
-                Variable::Direct => self.direct_light()?.save(&path)?,
-                Variable::Indirect => image(vec![[0.0; 3]; width as usize * height as usize]).save(&path)?,
+                Variable::Direct => self.direct_light(&points)?.save(&path)?,
+                Variable::Indirect => indirect.save(&path)?,
             }
         }
         Ok(())
     }
 
-    /// The picture without its background.
-    fn direct_light(&self) -> Result<HdrImage> {
+    /// The picture without its background and indirect light; `points` is that of point lights with shadows.
+    fn direct_light(&self, points: &HdrImage) -> Result<HdrImage> {
         let render = &self.scene.render;
         let settings = FrameSettings { background: [0.0; 3], ..FrameSettings::new(render, self.camera) };
         let mut frame = Frame::new(self.device, self.gpu_scene, settings)?;
         frame.render(&self.inputs(render.samples))?;
-        frame.hdr()
+        Ok(frame.hdr()?.plus(points))
     }
 
     fn inputs(&self, samples: u32) -> FrameInputs<'_> {

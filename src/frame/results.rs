@@ -21,15 +21,13 @@ impl Frame {
     pub fn hdr(&self) -> Result<HdrImage> {
         let texels: Vec<[f32; 4]> = self.targets.hdr.fetch(Use::TransferRead, Use::TransferRead)?;
         let samples = self.samples.max(1) as f32;
-        let mut pixels: Vec<[f32; 3]> =
-            texels.iter().map(|&[r, g, b, _]| [r / samples, g / samples, b / samples]).collect();
-        for gathered in self.gathered_light()?.iter().flatten() {
-            for (pixel, light) in pixels.iter_mut().zip(&gathered.pixels) {
-                // See glsl/present/gathered.frag.
-                (0..3).for_each(|channel| pixel[channel] = (pixel[channel] + light[channel]).max(0.0));
-            }
-        }
-        Ok(self.image(pixels))
+        let shaded =
+            self.image(texels.iter().map(|&[r, g, b, _]| [r / samples, g / samples, b / samples]).collect());
+        let Some([indirect, points]) = self.gathered_light()? else { return Ok(shaded) };
+        let mut picture = shaded.plus(&indirect).plus(&points);
+        // See glsl/present/gathered.frag.
+        picture.pixels.iter_mut().flatten().for_each(|value| *value = value.max(0.0));
+        Ok(picture)
     }
 
     /// The display-referred picture, sRGB-encoded.

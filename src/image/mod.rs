@@ -38,6 +38,15 @@ impl HdrImage {
         Self { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize] }
     }
 
+    /// The sum of two pictures of one size.
+    #[must_use]
+    pub fn plus(mut self, other: &Self) -> Self {
+        for (pixel, light) in self.pixels.iter_mut().zip(&other.pixels) {
+            *pixel = std::array::from_fn(|channel| pixel[channel] + light[channel]);
+        }
+        self
+    }
+
     /// Reads a picture by its extension; see the table of this module.
     ///
     /// # Errors

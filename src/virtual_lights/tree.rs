@@ -88,6 +88,8 @@ struct Bundle {
     upper: Vec3,
     power: f64,
     cone: Cone,
+    // Of isotropic lights the largest, infinite where one has none; 0 of others.
+    range: f32,
 }
 
 impl Bundle {
@@ -96,7 +98,9 @@ impl Bundle {
         let cone = if isotropic { Cone::SPHERE } else { Cone::along(unpack_normal(light.normal)) };
         let place = Vec3::from(light.position);
         let power = DVec3::from_array(light.color.map(f64::from)).element_sum() / 3.0;
-        Self { lower: place, upper: place, power, cone }
+        let inverse2 = f32::from_bits(light.extra);
+        let range = if isotropic { inverse2.sqrt().recip() } else { 0.0 };
+        Self { lower: place, upper: place, power, cone, range }
     }
 
     fn with(self, other: &Self) -> Self {
@@ -105,6 +109,7 @@ impl Bundle {
             upper: self.upper.max(other.upper),
             power: self.power + other.power,
             cone: self.cone.around(other.cone),
+            range: self.range.max(other.range),
         }
     }
 
@@ -113,7 +118,7 @@ impl Bundle {
             lower: self.lower.to_array(),
             power: self.power.min(f64::from(f32::MAX)) as f32,
             upper: self.upper.to_array(),
-            cone: self.cone.pack(),
+            cone: if self.range > 0.0 { self.range.to_bits() } else { self.cone.pack() },
         }
     }
 }
