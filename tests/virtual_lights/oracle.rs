@@ -41,13 +41,13 @@ fn world(material: &str, bounces: u32) -> String {
     )
 }
 
-/// The patch's radiance with so many bounces before the last surface, by sets of `count` lights and by so many eye paths
-/// a ray, agrees; both standard errors together are at most `noise` of it.
-fn compare(material: &str, bounces: u32, count: usize, paths: u32, noise: f64) {
+/// The patch's radiance with so many bounces before the last surface, by sets of `count` lights and by so many rays a
+/// pixel of 32 eye paths, agrees; both standard errors together are at most `noise` of it.
+fn compare(material: &str, bounces: u32, count: usize, spp: u32, noise: f64) {
     // A light of depth d has d − 1 bounces before it.
     let scene = load_embedded("test.toml", &world(material, bounces + 1), &[], &[]).unwrap();
     let options =
-        Options { integrator: Integrator::Path, paths, bounces, spp: 4, ..Options::of_scene(&scene) };
+        Options { integrator: Integrator::Path, paths: 32, bounces, spp, ..Options::of_scene(&scene) };
     let truth = render(&scene, &scene.cameras[0], &options).unwrap();
     let sets = sets(&scene, count, 12);
     for channel in 0..3 {
@@ -67,14 +67,14 @@ fn compare(material: &str, bounces: u32, count: usize, paths: u32, noise: f64) {
 /// Every light, and what hides it; the BSDF does not matter.
 #[test]
 fn light_paths_bring_direct_light() {
-    compare(FIVE[0], 0, 200_000, 2000, 2e-3);
+    compare(FIVE[0], 0, 200_000, 256, 2e-3);
 }
 
 #[test]
 fn light_paths_bring_what_eye_paths_find() {
     for material in FIVE {
         for bounces in [1, 3] {
-            compare(material, bounces, 30_000, 150, 0.015);
+            compare(material, bounces, 30_000, 20, 0.015);
         }
     }
 }
