@@ -25,6 +25,17 @@ impl Bounds {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
+    /// Twice the middle.
+    fn center(&self) -> DVec3 {
+        self.min + self.max
+    }
+
+    /// Surface area, about, of a box that holds so many items; 0 of none.
+    fn cost(&self, items: usize) -> f64 {
+        let size = self.max - self.min;
+        if items == 0 { 0.0 } else { (size.x * size.y + size.y * size.z + size.z * size.x) * items as f64 }
+    }
+
     fn contains(&self, p: DVec3) -> bool {
         self.min.cmple(p).all() && p.cmple(self.max).all()
     }
@@ -80,36 +91,107 @@ struct Node {
 }
 
 const LEAF_SIZE: usize = 4;
+/// Levels that choose where to split; below them halves, 32 levels at most, bound a walk's stack.
+const CHOICE_DEPTH: usize = 32;
+/// Nodes that a walk may have put aside.
+const STACK: usize = CHOICE_DEPTH + 32;
+/// Slabs of an axis between which a split may lie.
+const SLABS: usize = 16;
+
+/// Where items are split: those whose slab along the axis is one of the first.
+struct Cut {
+    axis: usize,
+    low: f64,
+    per_slab: f64,
+    slabs: usize,
+}
+
+impl Cut {
+    fn slab(&self, center: DVec3) -> usize {
+        (((center[self.axis] - self.low) * self.per_slab) as usize).min(SLABS - 1)
+    }
+
+    fn below(&self, center: DVec3) -> bool {
+        self.slab(center) < self.slabs
+    }
+
+    /// The cut of least surface area times items over both sides, of all axes; `None` where all centres coincide.
+    fn best(boxes: &[Bounds], items: &[u32], extent: &Bounds) -> Option<Self> {
+        let along = |axis: usize| {
+            let low = extent.min[axis];
+            let per_slab = SLABS as f64 / (extent.max[axis] - low);
+            let cut = Self { axis, low, per_slab, slabs: 0 };
+            let mut slabs = [(Bounds::EMPTY, 0); SLABS];
+            for &item in items {
+                let item = boxes[item as usize];
+                let slab = &mut slabs[cut.slab(item.center())];
+                *slab = (slab.0.union(item), slab.1 + 1);
+            }
+            // Costs of the sides above each place, then of those below it.
+            let mut above = [0.0; SLABS];
+            let mut side = (Bounds::EMPTY, 0);
+            for (place, slab) in slabs.iter().enumerate().rev() {
+                side = (side.0.union(slab.0), side.1 + slab.1);
+                above[place] = side.0.cost(side.1);
+            }
+            side = (Bounds::EMPTY, 0);
+            let mut best = (f64::INFINITY, 0);
+            for place in 1..SLABS {
+                side = (side.0.union(slabs[place - 1].0), side.1 + slabs[place - 1].1);
+                let cost = side.0.cost(side.1) + above[place];
+                if side.1 > 0 && side.1 < items.len() && cost < best.0 {
+                    best = (cost, place);
+                }
+            }
+            (best.0, Self { slabs: best.1, ..cut })
+        };
+        let wide = (0..3).filter(|&axis| extent.max[axis] > extent.min[axis]).map(along);
+        wide.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(cost, _)| cost.is_finite()).map(|(_, cut)| cut)
+    }
+}
 
 impl Tree {
-    /// Splits at the median of the widest axis; same boxes, same tree.
+    /// Splits where the surface area heuristic says so among a few places of each axis, deep down at the median of the
+    /// widest; same boxes, same tree.
     pub(super) fn new(boxes: &[Bounds]) -> Self {
         let mut tree = Self { nodes: Vec::new(), items: (0..boxes.len() as u32).collect() };
         if !boxes.is_empty() {
-            tree.split(boxes, 0, boxes.len());
+            tree.split(boxes, 0, boxes.len(), 0);
         }
         tree
     }
 
-    fn split(&mut self, boxes: &[Bounds], first: usize, count: usize) {
-        let center = |item: &u32| boxes[*item as usize].min + boxes[*item as usize].max;
+    fn split(&mut self, boxes: &[Bounds], first: usize, count: usize, depth: usize) {
+        let center = |item: &u32| boxes[*item as usize].center();
         let items = &mut self.items[first..first + count];
         let all = items.iter().map(|&item| boxes[item as usize]);
         let bounds = all.fold(Bounds::EMPTY, Bounds::union);
-        let extent = Bounds::around(items.iter().map(center));
-        let axis = (extent.max - extent.min).max_position();
         let node = self.nodes.len();
         let leaf = count <= LEAF_SIZE;
         self.nodes.push(Node { bounds, first: first as u32, count: if leaf { count as u32 } else { 0 } });
         if leaf {
             return;
         }
-        items.select_nth_unstable_by(count / 2, |a, b| {
-            center(a)[axis].total_cmp(&center(b)[axis]).then(a.cmp(b))
-        });
-        self.split(boxes, first, count / 2);
+        let extent = Bounds::around(items.iter().map(center));
+        let cut = if depth < CHOICE_DEPTH { Cut::best(boxes, items, &extent) } else { None };
+        let below = match cut {
+            Some(cut) => {
+                let (low, high): (Vec<u32>, Vec<u32>) =
+                    items.iter().partition(|item| cut.below(center(item)));
+                items[..low.len()].copy_from_slice(&low);
+                items[low.len()..].copy_from_slice(&high);
+                low.len()
+            }
+            None => {
+                let axis = (extent.max - extent.min).max_position();
+                let order = |a: &u32, b: &u32| center(a)[axis].total_cmp(&center(b)[axis]).then(a.cmp(b));
+                items.select_nth_unstable_by(count / 2, order);
+                count / 2
+            }
+        };
+        self.split(boxes, first, below, depth + 1);
         self.nodes[node].first = self.nodes.len() as u32;
-        self.split(boxes, first + count / 2, count - count / 2);
+        self.split(boxes, first + below, count - below, depth + 1);
     }
 
     /// Calls `visit` for every item whose box contains the point.
@@ -137,17 +219,26 @@ impl Tree {
             let t = self.nodes.get(index)?.bounds.entry(ray, t_max)?;
             Some((t, index))
         };
-        let mut stack: Vec<_> = entry(0, t_max).into_iter().collect();
-        while let Some((near, index)) = stack.pop() {
+        let mut stack = [(0.0, 0); STACK];
+        let mut aside = 0;
+        if let Some(root) = entry(0, t_max) {
+            (stack[0], aside) = (root, 1);
+        }
+        while aside > 0 {
+            aside -= 1;
+            let (near, index) = stack[aside];
             if near > t_max {
                 continue;
             }
             let node = &self.nodes[index];
             if node.count == 0 {
-                let mut children = [entry(index + 1, t_max), entry(node.first as usize, t_max)];
+                let [a, b] = [entry(index + 1, t_max), entry(node.first as usize, t_max)];
                 // The nearer child goes on top.
-                children.sort_by(|a, b| b.map_or(0.0, |c| c.0).total_cmp(&a.map_or(0.0, |c| c.0)));
-                stack.extend(children.into_iter().flatten());
+                let a_first = a.map_or(0.0, |a| a.0) < b.map_or(0.0, |b| b.0);
+                for child in if a_first { [b, a] } else { [a, b] }.into_iter().flatten() {
+                    stack[aside] = child;
+                    aside += 1;
+                }
             }
             for &item in self.leaf(node) {
                 t_max = visit(item as usize, t_max).unwrap_or(t_max);

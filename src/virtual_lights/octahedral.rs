@@ -48,6 +48,9 @@ impl Cone {
     #[must_use]
     pub fn around(self, other: Self) -> Self {
         let (wide, narrow) = if self.angle >= other.angle { (self, other) } else { (other, self) };
+        if wide.axis == narrow.axis {
+            return wide;
+        }
         // As exact for small angles as for large ones, unlike the arc cosine.
         let across = wide.axis.cross(narrow.axis);
         let between = across.length().atan2(wide.axis.dot(narrow.axis));
@@ -69,11 +72,12 @@ impl Cone {
     pub fn pack(self) -> u32 {
         let [x, y] = to_units(self.axis, AXIS_UNITS);
         let axis = from_units([x, y], AXIS_UNITS);
-        let error = axis.cross(self.axis).length().atan2(axis.dot(self.axis));
+        // The axis' rounding widens the cone: the cosine of the sum of both angles.
+        let (sin_error, cos_error) = (axis.cross(self.axis).length(), axis.dot(self.axis));
+        let (sin, cos) = self.angle.sin_cos();
         // An axis along one of the space's is exact, and with it the cone of a wall.
-        let slack = if error == 0.0 && self.angle == 0.0 { 0.0 } else { 1e-9 };
-        let angle = (self.angle + error + slack).min(Self::SPHERE.angle);
-        let cosine = (angle.cos().max(0.0) * COSINE_UNITS).floor();
+        let slack = if sin_error == 0.0 && self.angle == 0.0 { 0.0 } else { 1e-12 };
+        let cosine = ((cos * cos_error - sin * sin_error - slack).max(0.0) * COSINE_UNITS).floor();
         let mask = (1 << AXIS_BITS) - 1;
         (x as u32 & mask) | (y as u32 & mask) << AXIS_BITS | (cosine as u32) << (2 * AXIS_BITS)
     }

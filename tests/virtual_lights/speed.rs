@@ -25,7 +25,7 @@ fn speed() {
         }
         println!("{file}: {rows:?}");
         let set = pool.install(|| tracer.trace(1 << 20, 7));
-        let begin = Instant::now();
+        let begin = cpu_time::ProcessTime::now();
         let tree = pool.install(|| VirtualTree::new(&set.bounced));
         println!("tree over {}: {:?}", tree.lights.len(), begin.elapsed());
     }

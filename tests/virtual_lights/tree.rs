@@ -113,7 +113,7 @@ fn point_lights_shine_all_around() {
     for light in &tree.lights {
         let index = light.color[0] as usize;
         assert_eq!(Vec3::from(light.position), lights[index].position - origin);
-        assert_eq!(f32::from_bits(light.extra), if index % 2 == 0 { 0.25 } else { 0.0 });
+        assert_eq!(f32::from_bits(light.extra), if index.is_multiple_of(2) { 0.25 } else { 0.0 });
     }
 }
 
