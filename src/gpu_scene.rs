@@ -79,6 +79,8 @@ pub struct GpuScene {
     pub lights: LightTree,
     /// Area lights.
     pub area: Area,
+    /// What hides lights.
+    pub occluders: Occluders,
     /// What the nearest hits of rays are found and shaded by.
     pub hits: Hits,
     /// World position of the device's origin. A scene far from the world's is moved to its own, where float32 is fine
@@ -97,7 +99,6 @@ pub struct GpuScene {
     record_buffer: Buffer<MaterialRecord>,
     // What the sets refer to.
     _textures: Textures,
-    _occluders: Occluders,
 }
 
 impl GpuScene {
@@ -161,7 +162,7 @@ impl GpuScene {
             _textures: textures,
             moving: Moving::new(device, scene, origin)?,
             light_images,
-            _occluders: occluders,
+            occluders,
         })
     }
 

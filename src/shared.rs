@@ -318,6 +318,8 @@ shared! {
         SPEC_ONE_IN = 61;
         /// Clusters note their pixels.
         SPEC_NOTE_PIXELS = 47;
+        /// Masks cut some of what hides lights.
+        SPEC_OCCLUDER_MASKS = 49;
         /// Clusters note the variants of their pixels.
         SPEC_NOTE_VARIANTS = 45;
         /// Lights that are gathered cast shadows.

@@ -35,7 +35,8 @@ void nearer(BvhRay ray, uint texel, inout Hit hit) {
     float sum = weights.x + weights.y + weights.z;
     float t = scaled / abs(sum);
     met = met && (t < hit.t || (t == hit.t && texel < hit.triangle));
-    if (met && (a.w == 0u || mask_holds(a.w, weights))) {
+    if (OCCLUDER_MASKS) met = met && (a.w == 0u || mask_holds(a.w, weights));
+    if (met) {
         vec3 axis = ray.shear[2];
         hit = Hit(t, texel, weights.yz / sum, sum * (axis.x + axis.y + axis.z) > 0.0);
     }

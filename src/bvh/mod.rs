@@ -80,6 +80,12 @@ impl Bvh {
         &self.triangles
     }
 
+    /// Whether masks cut any of them.
+    #[must_use]
+    pub fn has_masks(&self) -> bool {
+        !self.masked.is_empty()
+    }
+
     /// The nodes in [`HIT_ORDERS`](crate::shared::HIT_ORDERS) orders, one after the other.
     #[must_use]
     pub fn ordered_nodes(&self) -> Vec<BvhNode> {

@@ -16,7 +16,7 @@ use texels::Heap;
 
 /// The textures that `glsl/bind/hit.glsl` reads.
 pub struct Hits {
-    /// Specialisation constants of what calls `hit_surface`.
+    /// Specialisation constants of what calls `hit_surface`, beside those of the occluders.
     pub specialization: Vec<(u32, u32)>,
     /// `None` where nothing may ask.
     materials: Option<Materials>,

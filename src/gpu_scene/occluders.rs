@@ -7,7 +7,11 @@ use crate::shared::{self, BVH_WIDTH_LOG2};
 use std::sync::Arc;
 
 /// The texture that `glsl/bind/bvh.glsl` reads.
-pub struct Occluders(Image);
+pub struct Occluders {
+    /// Specialisation constants of what traces rays.
+    pub specialization: Vec<(u32, u32)>,
+    texels: Image,
+}
 
 impl Occluders {
     /// Uploads a tree; an empty one hides nothing.
@@ -31,11 +35,12 @@ impl Occluders {
             },
         )?;
         image.upload(&[&texels], Use::Texture)?;
-        Ok(Self(image))
+        let specialization = vec![(shared::SPEC_OCCLUDER_MASKS, u32::from(bvh.has_masks()))];
+        Ok(Self { specialization, texels: image })
     }
 
     /// Puts it into a scene's set.
     pub fn bind(&self, scene: DescriptorSet<'_>) {
-        scene.image(shared::scene::SCENE_BVH, &self.0, Use::Texture);
+        scene.image(shared::scene::SCENE_BVH, &self.texels, Use::Texture);
     }
 }

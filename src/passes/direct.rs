@@ -38,7 +38,8 @@ impl Direct {
         let cut = || SurfacePipelines::new(inputs, shaders::DIRECT_CUT_FRAG, &[], Blend::Add, at);
         let area = || {
             let masks = [(shared::SPEC_LIGHT_MASKS, u32::from(work.masks))];
-            let extra = [&inputs.scene.area.specialization[..], &masks].concat();
+            let (area, rays) = (&inputs.scene.area.specialization, &inputs.scene.occluders.specialization);
+            let extra = [&area[..], rays, &masks].concat();
             SurfacePipelines::new(inputs, shaders::DIRECT_AREA_FRAG, &extra, Blend::Add, at)
         };
         let luminaires = || {

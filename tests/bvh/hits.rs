@@ -27,8 +27,10 @@ pub(crate) struct Found {
 pub(crate) fn found(gpu: &CheckedGpu, scene: &Scene, origin: Vec3, rows: &[RayProbeRow]) -> Vec<Found> {
     let bvh = Bvh::new(scene, origin);
     let (occluders, hits) = (Occluders::new(gpu, &bvh).unwrap(), Hits::new(gpu, scene, &bvh).unwrap());
-    let specialization =
-        hits.specialization.iter().fold(Specialization::default(), |all, &(id, value)| all.with(id, value));
+    let specialization = [&occluders.specialization[..], &hits.specialization]
+        .concat()
+        .iter()
+        .fold(Specialization::default(), |all, &(id, value)| all.with(id, value));
     let bind = |set: amas::gpu::DescriptorSet<'_>| {
         occluders.bind(set);
         hits.bind(set);

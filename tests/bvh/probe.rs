@@ -13,9 +13,10 @@ use crate::common::square;
 /// What the device says of each ray.
 pub(crate) fn occluded(gpu: &CheckedGpu, scene: &Scene, rows: &[RayProbeRow]) -> Vec<bool> {
     let occluders = Occluders::new(gpu, &Bvh::new(scene, Vec3::ZERO)).unwrap();
-    let none = Specialization::default();
+    let masks = occluders.specialization.iter();
+    let masks = masks.fold(Specialization::default(), |all, &(id, value)| all.with(id, value));
     let values: Vec<u32> =
-        amas::probe::run_among(gpu, shaders::PROBE_BVH_COMP, &none, &|scene| occluders.bind(scene), rows)
+        amas::probe::run_among(gpu, shaders::PROBE_BVH_COMP, &masks, &|scene| occluders.bind(scene), rows)
             .unwrap();
     assert!(values.iter().all(|&value| value <= 1));
     values.into_iter().map(|value| value == 1).collect()

@@ -94,19 +94,14 @@ fn worlds() -> Vec<World> {
 /// CPU nanoseconds a ray: the median of five runs, each less what a few rays take.
 fn nanoseconds(
     gpu: &Arc<Gpu>,
-    shader: Shader,
+    (shader, specialization): (Shader, &Specialization),
     bind: &dyn Fn(DescriptorSet<'_>),
     rows: &[RayProbeRow],
 ) -> f64 {
     let seconds = |rows: &[RayProbeRow]| {
         let before = cpu();
-        let words = if shader.name == shaders::PROBE_BVH_COMP.name { 1 } else { 2 };
-        let none = Specialization::default();
-        if words == 1 {
-            amas::probe::run_among::<_, u32>(gpu, shader, &none, bind, rows).unwrap();
-        } else {
-            amas::probe::run_among::<_, [u32; 2]>(gpu, shader, &none, bind, rows).unwrap();
-        }
+        // Room for either's answers.
+        amas::probe::run_among::<_, [u32; 2]>(gpu, shader, specialization, bind, rows).unwrap();
         cpu() - before
     };
     let mut figures: Vec<_> =
@@ -141,9 +136,11 @@ fn cpu_time_of_rays() {
             };
             rows.iter().map(towards).collect()
         };
+        let masks = occluders.specialization.iter();
+        let masks = masks.fold(Specialization::default(), |all, &(id, value)| all.with(id, value));
         println!("{name}: {} triangles", bvh.triangles().len());
         for (kind, rows) in [("coherent", &coherent), ("random", &random)] {
-            let time = |shader, rows: &[RayProbeRow]| nanoseconds(&gpu, shader, &bind, rows);
+            let time = |shader, rows: &[RayProbeRow]| nanoseconds(&gpu, (shader, &masks), &bind, rows);
             let shadow = time(shaders::PROBE_BVH_COMP, rows);
             let nearest = time(shaders::PROBE_NEAREST_COMP, rows);
             println!("  {kind} {}: shadow {shadow:.0} ns, nearest {nearest:.0} ns", rows.len());
@@ -151,7 +148,7 @@ fn cpu_time_of_rays() {
         let towards = to_lights(&random);
         println!(
             "  to one light: shadow {:.0} ns",
-            nanoseconds(&gpu, shaders::PROBE_BVH_COMP, &bind, &towards)
+            nanoseconds(&gpu, (shaders::PROBE_BVH_COMP, &masks), &bind, &towards)
         );
     }
 }

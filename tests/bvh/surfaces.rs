@@ -193,8 +193,11 @@ fn float(values: Vec<f32>) -> Texels {
     Texels::Float(values.as_chunks::<4>().0.to_vec())
 }
 
+/// Light enough for alphas far above the least, at which the oracle's isotropic ones end otherwise.
 fn srgb(values: Vec<f32>) -> Texels {
-    Texels::Srgb8(values.as_chunks::<4>().0.iter().map(|texel| texel.map(|v| (v * 255.0) as u8)).collect())
+    Texels::Srgb8(
+        values.as_chunks::<4>().0.iter().map(|texel| texel.map(|v| (128.0 + v * 127.0) as u8)).collect(),
+    )
 }
 
 #[test]
