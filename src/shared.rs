@@ -323,13 +323,13 @@ shared! {
         /// Clusters note the variants of their pixels.
         SPEC_NOTE_VARIANTS = 45;
         /// Lights that are gathered cast shadows.
-        SPEC_GATHER_SHADOWS = 49;
+        SPEC_GATHER_SHADOWS = 54;
         /// The scene's point lights are gathered, not shaded one by one: they cast shadows.
-        SPEC_GATHER_POINTS = 50;
+        SPEC_GATHER_POINTS = 55;
         /// There is indirect light.
-        SPEC_GATHER_INDIRECT = 51;
+        SPEC_GATHER_INDIRECT = 56;
         /// Every surface is Lambertian, and the background black: only what is near has to be looked for.
-        SPEC_GATHER_LAMBERT = 52;
+        SPEC_GATHER_LAMBERT = 57;
         /// Pixels along a side of a workgroup that gathers.
         GATHER_SIDE = 8;
         /// Frames of a round: each pixel of a block of 4 × 4 draws from another of so many strata in each.

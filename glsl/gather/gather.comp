@@ -19,10 +19,10 @@
 #include "gather/visible.glsl"
 
 layout(local_size_x = GATHER_SIDE, local_size_y = GATHER_SIDE) in;
-layout(constant_id = 49) const bool SHADOWS = true;
-layout(constant_id = 50) const bool POINTS = true;
-layout(constant_id = 51) const bool INDIRECT = true;
-layout(constant_id = 52) const bool LAMBERT = false;
+layout(constant_id = 54) const bool SHADOWS = true;
+layout(constant_id = 55) const bool POINTS = true;
+layout(constant_id = 56) const bool INDIRECT = true;
+layout(constant_id = 57) const bool LAMBERT = false;
 layout(push_constant, std430) uniform PushBlock { GatherConstants gather; };
 layout(set = SET_gather, binding = GATHER_SUMS, rgba32f) uniform image2DArray sums;
 

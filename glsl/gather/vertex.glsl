@@ -3,9 +3,10 @@
 #ifndef GATHER_VERTEX_GLSL
 #define GATHER_VERTEX_GLSL
 
+layout(constant_id = 1) const bool ANISOTROPIC = true;
+
 uint surface_model;
 #define MODEL surface_model
-#define ANISOTROPIC true
 #define ROUGH_MATTE true
 #define LOBE_SHEEN true
 #define LOBE_CLEARCOAT true

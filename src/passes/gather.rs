@@ -63,7 +63,9 @@ impl Gather {
     pub fn new(inputs: &PassInputs<'_>, targets: &Targets, what: Gathered) -> Result<Self> {
         let sets = [shared::frame::BINDINGS, shared::scene::BINDINGS, shared::gather::BINDINGS];
         let layout = Arc::new(PipelineLayout::new(inputs.device, &sets)?);
-        let specialization = Specialization::default()
+        let traced = inputs.scene.occluders.specialization.iter().chain(&inputs.scene.hits.specialization);
+        let specialization = traced
+            .fold(Specialization::default(), |all, &(id, value)| all.with(id, value))
             .with(shared::SPEC_PERSPECTIVE, u32::from(inputs.perspective))
             .with(shared::SPEC_GATHER_SHADOWS, u32::from(what.shadows))
             .with(shared::SPEC_GATHER_POINTS, u32::from(what.points))

@@ -38,7 +38,7 @@ fn albedos_of_the_tables() {
 }
 
 /// A share of the indices below `count` by the golden ratio, which keeps step with no period of a table.
-fn spread(count: usize) -> BTreeSet<usize> {
+pub(crate) fn spread(count: usize) -> BTreeSet<usize> {
     if count <= FIGURES {
         return (0..count).collect();
     }

@@ -7,6 +7,7 @@
 
 #include "lib/bsdf.glsl"
 #include "lib/bsdf/lobe_sampling.glsl"
+#include "lib/bsdf/skimming.glsl"
 
 // Shares of the lobes, and their shapes.
 struct BsdfSampling {
@@ -14,6 +15,7 @@ struct BsdfSampling {
     float cosine;
     float even;     // of the hemisphere
     float specular; // Trowbridge–Reitz, by visible normals
+    float skimming;
     float coat;     // GTR1
     Ggx ggx;
     Gtr1 gtr1;
@@ -30,6 +32,7 @@ struct BsdfAlbedos {
     float diffuse;
     float even; // share of `diffuse` that is even: what does not vanish at grazing angles would weigh up to 1/cosθo
     float specular;
+    float skimming; // share of `specular` that skims, for the same reason
     float coat;
 };
 
@@ -38,18 +41,23 @@ float largest_channel(vec3 v) { return max(v.x, max(v.y, v.z)); }
 BsdfAlbedos matte_albedos(BsdfParameters p, float sin_o) {
     OrenNayar shape = oren_nayar(p);
     float even = 0.5 * shape.b * sin_o;
-    return BsdfAlbedos(1.0, even / (shape.a + even), 0.0, 0.0);
+    return BsdfAlbedos(1.0, even / (shape.a + even), 0.0, 0.0, 0.0);
 }
 
 BsdfAlbedos plastic_albedos(BsdfParameters p, float cos_o) {
     float fresnel = fresnel_dielectric((p.eta - 1.0) * (p.eta + 1.0), sqr(cos_o));
-    return BsdfAlbedos(largest_channel(p.color), 0.0, largest_channel(p.specular) * fresnel, 0.0);
+    return BsdfAlbedos(largest_channel(p.color), 0.0, largest_channel(p.specular) * fresnel, 0.0, 0.0);
 }
 
-BsdfAlbedos substrate_albedos(BsdfParameters p, float cos_o) {
+BsdfAlbedos substrate_albedos(BsdfParameters p, vec3 wo, float cos_o) {
     float weight = pow5(1.0 - cos_o);
     float base = largest_channel(p.color * (1.0 - p.specular)) * schlick_complement(0.5 * cos_o);
-    return BsdfAlbedos(base, 0.0, lerp(largest_channel(p.specular), 1.0, weight), 0.0);
+    // Visible normals weigh (cosθo + L)/(2 cosθo) at most, L about alpha at grazing angles. The rest is L − cosθo without
+    // the subtraction, which leaves no digit of it where alpha is small.
+    Ggx ggx = ggx_setup(p.alpha_x, p.alpha_y, wo);
+    float rest = dot(ggx.alpha2, sqr(wo).xy) / (ggx.stretch_o + cos_o);
+    float skimming = 0.3 * rest / max(rest + 2.0 * cos_o, TINY);
+    return BsdfAlbedos(base, 0.0, lerp(largest_channel(p.specular), 1.0, weight), skimming, 0.0);
 }
 
 BsdfAlbedos principled_albedos(BsdfParameters p, float cos_o) {
@@ -60,17 +68,17 @@ BsdfAlbedos principled_albedos(BsdfParameters p, float cos_o) {
     float base = (1.0 - metallic) * (largest_channel(p.color) + 0.2 * sheen);
     float specular = lerp(largest_channel(principled_f0(p)), 1.0, weight);
     float coat = LOBE_CLEARCOAT ? 0.25 * p.clearcoat * lerp(CLEARCOAT_F0, 1.0, weight) : 0.0;
-    return BsdfAlbedos(base, even, specular, coat);
+    return BsdfAlbedos(base, even, specular, 0.0, coat);
 }
 
 BsdfAlbedos bsdf_albedos(BsdfParameters p, vec3 wo) {
     float cos_o = clamp(wo.z, 0.0, 1.0);
     if (MODEL == MODEL_MATTE) return matte_albedos(p, length(wo.xy));
     if (MODEL == MODEL_PLASTIC) return plastic_albedos(p, cos_o);
-    if (MODEL == MODEL_SUBSTRATE) return substrate_albedos(p, cos_o);
+    if (MODEL == MODEL_SUBSTRATE) return substrate_albedos(p, wo, cos_o);
     if (MODEL == MODEL_PRINCIPLED) return principled_albedos(p, cos_o);
     // Visible normals leave of metal its F and the shadowing, which never exceed 1.
-    return BsdfAlbedos(0.0, 0.0, 1.0, 0.0);
+    return BsdfAlbedos(0.0, 0.0, 1.0, 0.0, 0.0);
 }
 
 BsdfSampling bsdf_sampling(BsdfParameters p, vec3 wo) {
@@ -84,7 +92,8 @@ BsdfSampling bsdf_sampling(BsdfParameters p, vec3 wo) {
     s.wo = wo;
     s.cosine = (1.0 - coat) * diffuse * (1.0 - a.even);
     s.even = (1.0 - coat) * diffuse * a.even;
-    s.specular = (1.0 - coat) * (1.0 - diffuse);
+    s.specular = (1.0 - coat) * (1.0 - diffuse) * (1.0 - a.skimming);
+    s.skimming = (1.0 - coat) * (1.0 - diffuse) * a.skimming;
     s.coat = coat;
     s.ggx = ggx_setup(p.alpha_x, p.alpha_y, wo);
     s.gtr1 = gtr1_setup(lerp(0.1, 0.001, p.clearcoat_gloss));
@@ -101,6 +110,11 @@ vec3 bsdf_sample(BsdfSampling s, vec2 xi) {
         return normalize(even_direction(vec2(min(x / s.even, LARGEST_UNIT), xi.y)));
     }
     x -= s.even;
+    if (x < s.skimming) {
+        vec2 stretched = vec2(min(x / s.skimming, LARGEST_UNIT), xi.y);
+        return normalize(skimming_direction(skimming_setup(s.ggx, s.wo), stretched));
+    }
+    x -= s.skimming;
     vec3 h;
     if (x < s.specular || s.coat == 0.0) {
         h = ggx_visible_normal(s.ggx, s.wo, vec2(min(x / s.specular, LARGEST_UNIT), xi.y));
@@ -115,7 +129,10 @@ float bsdf_pdf(BsdfSampling s, vec3 wi) {
     if (s.wo.z <= 0.0 || wi.z <= 0.0) return 0.0;
     HalfVector h = half_vector(s.wo, wi);
     float wide = (s.cosine * wi.z + 0.5 * s.even) * INV_PI;
-    return wide + s.specular * ggx_pdf(s.ggx, h, s.wo.z) + s.coat * gtr1_pdf(s.gtr1, h);
+    float narrow = s.specular * ggx_pdf(s.ggx, h, s.wo.z) + s.coat * gtr1_pdf(s.gtr1, h);
+    // Only the substrate skims.
+    if (s.skimming > 0.0) narrow += s.skimming * skimming_pdf(skimming_setup(s.ggx, s.wo), wi);
+    return wide + narrow;
 }
 
 #endif

@@ -29,7 +29,7 @@ impl Ggx {
     }
 
     /// L(w) = √((αx wx)² + (αy wy)² + wz²).
-    fn stretched_length(&self, w: DVec3) -> f64 {
+    pub(super) fn stretched_length(&self, w: DVec3) -> f64 {
         self.stretch(w).length()
     }
 

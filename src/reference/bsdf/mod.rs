@@ -11,6 +11,7 @@ mod microfacet;
 mod plastic;
 pub(crate) mod principled;
 pub(crate) mod sampling;
+mod skimming;
 pub(crate) mod substrate;
 
 pub use fresnel::{conductor as fresnel_conductor, dielectric as fresnel_dielectric};

@@ -1,5 +1,5 @@
-//! The sampling mixture: a cosine lobe, an even one over the hemisphere, a GGX lobe by visible normals, and a GTR1 lobe
-//! for the clear coat. Its shares are those of `glsl/lib/bsdf/sample.glsl`.
+//! The sampling mixture: a cosine lobe, an even one over the hemisphere, a GGX lobe by visible normals, one that
+//! skims the surface, and a GTR1 lobe for the clear coat. Its shares are those of `glsl/lib/bsdf/sample.glsl`.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::microfacet::Ggx;
 use super::principled::gtr1;
+use super::skimming::Skimming;
 
 /// Least share of a lobe that exists, so that a wrong guess of its albedo costs noise and never a spike.
 const LEAST_SHARE: f64 = 0.1;
@@ -18,6 +19,7 @@ pub(super) struct Mixture {
     even: f64,
     specular: f64,
     coat: f64,
+    skimming: f64,
     ggx: Ggx,
     coat_alpha: f64,
 }
@@ -26,7 +28,8 @@ impl Mixture {
     /// The cosine lobe, and a share of the even one.
     pub(super) fn diffuse(even: f64) -> Self {
         let ggx = Ggx::isotropic(1.0);
-        Self { cosine: 1.0, even: 0.0, specular: 0.0, coat: 0.0, ggx, coat_alpha: 1.0 }.with_even(even)
+        Self { cosine: 1.0, even: 0.0, specular: 0.0, coat: 0.0, skimming: 0.0, ggx, coat_alpha: 1.0 }
+            .with_even(even)
     }
 
     /// Visible normals alone: of a microfacet lobe they leave F and the shadowing, which never exceed 1.
@@ -40,13 +43,19 @@ impl Mixture {
         let exists = diffuse > 0.0;
         let cosine =
             if exists { (diffuse / (diffuse + specular)).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE) } else { 0.0 };
-        Self { cosine, even: 0.0, specular: 1.0 - cosine, coat: 0.0, ggx, coat_alpha: 1.0 }
+        Self { cosine, even: 0.0, specular: 1.0 - cosine, coat: 0.0, skimming: 0.0, ggx, coat_alpha: 1.0 }
     }
 
     /// Gives a share of the cosine lobe to an even one: over cosθi, what does not vanish at grazing angles has weights
     /// up to 1/cosθo.
     pub(super) fn with_even(self, share: f64) -> Self {
         Self { cosine: self.cosine * (1.0 - share), even: self.cosine * share, ..self }
+    }
+
+    /// Gives a share of the visible normals to a skimming lobe: of a coat without shadowing but with 1/(wi·h) they leave
+    /// weights up to 1/cosθo.
+    pub(super) fn with_skimming(self, share: f64) -> Self {
+        Self { specular: self.specular * (1.0 - share), skimming: self.specular * share, ..self }
     }
 
     /// Adds the clear coat; `albedo` as in [`Mixture::two`], where the others are taken to sum to about 1.
@@ -77,6 +86,10 @@ impl Mixture {
             return even(DVec2::new((x / self.even).min(1.0), xi.y));
         }
         x -= self.even;
+        if x < self.skimming {
+            return Skimming::new(&self.ggx, wo).sample(DVec2::new(x / self.skimming, xi.y));
+        }
+        x -= self.skimming;
         let h = if x < self.specular || self.coat == 0.0 {
             self.ggx.sample_visible_normal(wo, DVec2::new((x / self.specular).min(1.0), xi.y))
         } else {
@@ -91,6 +104,9 @@ impl Mixture {
         let mut pdf = (self.cosine * wi.z + 0.5 * self.even) * FRAC_1_PI;
         if self.specular > 0.0 {
             pdf += self.specular * self.ggx.pdf(wo, wi);
+        }
+        if self.skimming > 0.0 {
+            pdf += self.skimming * Skimming::new(&self.ggx, wo).pdf(wi);
         }
         if self.coat > 0.0 {
             let (h, cos) = super::half_vector(wo, wi);

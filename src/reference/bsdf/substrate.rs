@@ -49,6 +49,9 @@ impl Substrate {
         let specular = self.specular.max_element() * (1.0 - weight) + weight;
         // 28/23 makes what the coat lets through the base's exact albedo.
         let base = (self.diffuse * (DVec3::ONE - self.specular)).max_element() * transmitted(wo.z);
-        Mixture::two(base, specular, self.ggx)
+        // Visible normals weigh (cosθo + L)/(2 cosθo) at most, L about alpha at grazing angles.
+        let rest = self.ggx.stretched_length(wo) - wo.z;
+        let skimming = 0.3 * (rest / (rest + 2.0 * wo.z)).max(0.0);
+        Mixture::two(base, specular, self.ggx).with_skimming(skimming)
     }
 }
