@@ -77,8 +77,9 @@ Example:
 A frame of each point is rendered in turn, round after round, so that whatever drifts on the machine is the same for all. Ctrl-C
 ends after the frame at hand: what was measured is printed and written, as partial. Figures are written after every round.
 
-A baseline is compared point by point where scene and size are the same: with 95 % confidence a point is faster or slower, else
-it is undecided. CPU devices are judged by CPU time, others by device time. Compare runs of the same command on an idle machine.")]
+A baseline is compared point by point where scene and size are the same: a point is faster or slower where that is so by more
+than 2 % with 95 % confidence, else it is undecided. CPU devices are judged by CPU time, others by device time. Compare runs of
+the same command on an idle machine.")]
     Bench(BenchOptions),
     /// Measure speed against error, and write tables and plots
     #[command(after_help = "Examples:

@@ -191,10 +191,9 @@ impl Session<'_> {
         }
         self.subjects.iter().try_for_each(|subject| subject.stage().device.require_silence())?;
         match self.is_partial() {
-            true => Err(Error::Interrupted(format!(
-                "{} of {} rounds are done",
-                self.rounds, self.options.frames
-            ))),
+            true => {
+                Err(Error::Interrupted(format!("{} of {} rounds are done", self.rounds, self.options.frames)))
+            }
             false => Ok(()),
         }
     }

@@ -47,6 +47,9 @@ mod tests {
     #[test]
     fn median_and_deviation() {
         assert_eq!(Figure::of(&[]), None);
-        assert_eq!(Figure::of(&[3.0, 1.0, 2.0, 100.0]), Some(Figure { median: 2.5, mad: 1.0, min: 1.0, n: 4 }));
+        assert_eq!(
+            Figure::of(&[3.0, 1.0, 2.0, 100.0]),
+            Some(Figure { median: 2.5, mad: 1.0, min: 1.0, n: 4 })
+        );
     }
 }

@@ -3,7 +3,7 @@
 use super::super::measure::median;
 use super::super::terminal::print;
 use super::figures::{Point, Samples};
-use super::statistics::{CONFIDENCE, Ratio, Verdict};
+use super::statistics::{CONFIDENCE, MARGIN, Ratio, Verdict};
 use crate::error::{Error, Result};
 use crate::gpu::DeviceInfo;
 use serde::{Deserialize, Serialize};
@@ -16,6 +16,8 @@ pub(super) struct Baseline {
     #[serde(flatten)]
     run: Run,
     confidence: f64,
+    /// Relative difference that a verdict needs beyond doubt.
+    margin: f64,
 }
 
 #[derive(Deserialize, Serialize)]
@@ -72,7 +74,10 @@ impl Baseline {
         let wrong = |cause: String, remedy: &str| Error::input(path, None, cause, remedy);
         let anew = "measure the baseline anew: amas bench --json FILE";
         let bytes = std::fs::read(path).map_err(|error| {
-            wrong(format!("cannot read the baseline: {error}"), "check the path, or write it by amas bench --json FILE")
+            wrong(
+                format!("cannot read the baseline: {error}"),
+                "check the path, or write it by amas bench --json FILE",
+            )
         })?;
         let json: serde_json::Value = serde_json::from_slice(&bytes)
             .map_err(|error| wrong(format!("the baseline is not JSON: {error}"), anew))?;
@@ -83,10 +88,9 @@ impl Baseline {
             }
             _ => {}
         }
-        let run = serde_json::from_value(json).map_err(|error| {
-            wrong(format!("the baseline has not what amas bench writes: {error}"), anew)
-        })?;
-        Ok(Self { file: path.into(), run, confidence: CONFIDENCE })
+        let run = serde_json::from_value(json)
+            .map_err(|error| wrong(format!("the baseline has not what amas bench writes: {error}"), anew))?;
+        Ok(Self { file: path.into(), run, confidence: CONFIDENCE, margin: MARGIN })
     }
 
     /// # Errors
@@ -141,7 +145,12 @@ impl Baseline {
     }
 
     /// Prints the comparison as a table.
-    pub(super) fn print(&self, device: &DeviceInfo, set: &[(String, String)], points: &[Point]) -> Result<()> {
+    pub(super) fn print(
+        &self,
+        device: &DeviceInfo,
+        set: &[(String, String)],
+        points: &[Point],
+    ) -> Result<()> {
         let run = &self.run;
         let commit = run.commit.as_deref().map_or_else(String::new, |commit| format!(", commit {commit}"));
         let partial = if run.partial { ", interrupted" } else { "" };

@@ -52,7 +52,9 @@ pub(super) struct Stage {
 impl Source {
     pub(super) fn name(&self) -> String {
         match self {
-            Self::File(path) => path.as_ref().map_or_else(|| "default".into(), |path| path.display().to_string()),
+            Self::File(path) => {
+                path.as_ref().map_or_else(|| "default".into(), |path| path.display().to_string())
+            }
             Self::Suite(case) => case.name.clone(),
         }
     }

@@ -61,7 +61,8 @@ fn area() -> Points {
          holes = [[[-0.2, 1, -1.5], [-0.2, 1.4, -1.5], [0.2, 1.4, -1.5], [0.2, 1, -1.5]]]";
     let line = "type = \"line\"\na = [-1, 2, -1]\nb = [1, 2, -1]\nradius = 0.02";
     let textured = format!("{rect}\ntexture = \"default_zellige.png\"");
-    let kinds = [("rect", rect), ("disk", disk), ("polygon", polygon), ("line", line), ("textured", &textured)];
+    let kinds =
+        [("rect", rect), ("disk", disk), ("polygon", polygon), ("line", line), ("textured", &textured)];
     let mut points: Points = kinds.map(|(name, light)| (name.into(), lit(&[light.into()], ""))).into();
     points.push(("shadowed".into(), lit(&[rect.into()], "shadows = true")));
     let small = |index: u32| {
