@@ -100,6 +100,7 @@ impl Session<'_> {
         for source in sources {
             self.bar.set_message(source.name());
             let mut subject = Subject::new(source, self.options)?;
+            self.baseline.iter().try_for_each(|old| old.check_device(subject.stage().device.info()))?;
             self.bar.inc(1);
             for _ in 0..self.options.warmup {
                 self.stop_if_asked()?;
@@ -110,10 +111,8 @@ impl Session<'_> {
             self.subjects.push(subject);
         }
         self.stop_if_asked()?;
-        if let (Some(baseline), [first, ..]) = (&self.baseline, self.subjects.as_slice()) {
-            let points: Vec<_> = self.subjects.iter().map(Subject::key).collect();
-            baseline.check(first.stage().device.info(), &points)?;
-        }
+        let points: Vec<_> = self.subjects.iter().map(Subject::key).collect();
+        self.baseline.iter().try_for_each(|old| old.check_points(&points))?;
         self.loads.before = start.load();
         self.loads.before.iter().for_each(|load| self.bar.suspend(|| load.warn("before the measurement")));
         Ok(())

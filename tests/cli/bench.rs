@@ -113,6 +113,7 @@ fn baselines() {
         let other = json!({ "scene": "other.toml", "size": [9, 9], "samples": { "cpu_ms": [], "wall_ms": [], "gpu_ms": [] } });
         figures["points"].as_array_mut().unwrap().insert(0, other);
         figures["set"] = json!([["samples", "3"]]);
+        figures["load"]["before"] = json!({ "processors": 2, "others": 1.5, "stolen": 0.0 });
     });
     let scenes = ["scene.toml", "scene.toml", "--baseline", "c.json"];
     let words = ["bench", "--size", "32x18", "--warmup", "0", "--frames", "1"];

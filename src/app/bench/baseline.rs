@@ -2,7 +2,7 @@
 
 use super::super::measure::median;
 use super::super::terminal::print;
-use super::figures::{Point, Samples};
+use super::figures::{Loads, Point, Samples};
 use super::statistics::{CONFIDENCE, MARGIN, Ratio, Verdict};
 use crate::error::{Error, Result};
 use crate::gpu::DeviceInfo;
@@ -26,6 +26,7 @@ struct Run {
     commit: Option<String>,
     partial: bool,
     set: Vec<(String, String)>,
+    load: Loads,
     #[serde(skip_serializing)]
     device: Named,
     #[serde(skip_serializing)]
@@ -94,23 +95,32 @@ impl Baseline {
     }
 
     /// # Errors
-    /// [`Error::Input`] where these points cannot be compared with the baseline's on this device.
-    pub(super) fn check(&self, device: &DeviceInfo, points: &[(String, [u32; 2])]) -> Result<()> {
-        let wrong = |cause: String, remedy: &str| Err(Error::input(&self.file, None, cause, remedy));
+    /// [`Error::Input`] where it was measured on another device.
+    pub(super) fn check_device(&self, device: &DeviceInfo) -> Result<()> {
         let old = &self.run.device;
-        if old.name != device.name {
-            return wrong(
-                format!("the baseline was measured on {:?}, this is {:?}", old.name, device.name),
-                "choose the same device by --device, or measure the baseline on this one",
-            );
+        if old.name == device.name {
+            return Ok(());
         }
+        Err(Error::input(
+            &self.file,
+            None,
+            format!("the baseline was measured on {:?}, this is {:?}", old.name, device.name),
+            "choose the same device by --device, or measure the baseline on this one",
+        ))
+    }
+
+    /// # Errors
+    /// [`Error::Input`] where it has none of these points.
+    pub(super) fn check_points(&self, points: &[(String, [u32; 2])]) -> Result<()> {
         if !points.iter().any(|(scene, size)| self.find(scene, *size, 0).is_some()) {
             let has = |old: &Old| format!("{} at {}x{}", old.scene, old.size[0], old.size[1]);
             let all: Vec<_> = self.run.points.iter().map(has).collect();
-            return wrong(
+            return Err(Error::input(
+                &self.file,
+                None,
                 format!("the baseline has none of these points; it has: {}", all.join(", ")),
                 "measure the same scenes or suites at the same size",
-            );
+            ));
         }
         Ok(())
     }
@@ -154,7 +164,9 @@ impl Baseline {
         let run = &self.run;
         let commit = run.commit.as_deref().map_or_else(String::new, |commit| format!(", commit {commit}"));
         let partial = if run.partial { ", interrupted" } else { "" };
-        print(format_args!("against {} (amas {}{commit}{partial})", self.file.display(), run.version))?;
+        let busy = if run.load.any_busy() { ", on a busy machine" } else { "" };
+        let file = self.file.display();
+        print(format_args!("against {file} (amas {}{commit}{partial}{busy})", run.version))?;
         if run.device.driver != device.driver {
             print(format_args!("its driver was {}, this is {}", run.device.driver, device.driver))?;
         }

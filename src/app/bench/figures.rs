@@ -27,12 +27,18 @@ pub(super) struct Figures<'a> {
 }
 
 /// What else ran on the machine; `null` where the system does not tell.
-#[derive(Clone, Copy, Serialize)]
+#[derive(Clone, Copy, Deserialize, Serialize)]
 pub(super) struct Loads {
     /// While the scenes were loaded and warmed up.
     pub(super) before: Option<Load>,
     /// While it was measured.
     pub(super) during: Option<Load>,
+}
+
+impl Loads {
+    pub(super) fn any_busy(&self) -> bool {
+        self.before.iter().chain(&self.during).any(Load::is_busy)
+    }
 }
 
 #[derive(Serialize)]

@@ -2,7 +2,7 @@
 
 use super::super::terminal::complain;
 use cpu_time::ProcessTime;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
 /// Share of all processors that others may take before it is worth a warning.
@@ -27,7 +27,7 @@ struct Ticks {
 }
 
 /// Mean load over a time, in processors.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub(super) struct Load {
     /// Processors of the machine.
     processors: u64,
