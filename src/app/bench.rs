@@ -14,7 +14,7 @@ use super::outputs::{check_distinct, check_folder, same_file};
 use super::report::{self, Origin};
 use super::terminal::print;
 use crate::error::{Error, Result};
-use baseline::Baseline;
+use baseline::{Baseline, print_comparisons};
 use figures::{Figures, Loads, Point};
 use indicatif::{ProgressBar, ProgressStyle};
 use interrupt::Interrupt;
@@ -186,7 +186,8 @@ impl Session<'_> {
         let measured = self.subjects.iter().filter(|subject| !subject.whole.is_empty());
         measured.zip(&points).try_for_each(|(subject, point)| show(subject, point))?;
         if let (Some(baseline), [first, ..]) = (&self.baseline, self.subjects.as_slice()) {
-            baseline.print(first.stage().device.info(), &self.options.set, &points)?;
+            baseline.introduce(first.stage().device.info(), &self.options.set)?;
+            print_comparisons(&points)?;
         }
         self.subjects.iter().try_for_each(|subject| subject.stage().device.require_silence())?;
         match self.is_partial() {

@@ -154,13 +154,8 @@ impl Baseline {
         Some(Comparison { clock, baseline_median_ms, median_ms, ratio: Ratio::of(new, old)? })
     }
 
-    /// Prints the comparison as a table.
-    pub(super) fn print(
-        &self,
-        device: &DeviceInfo,
-        set: &[(String, String)],
-        points: &[Point],
-    ) -> Result<()> {
+    /// Prints where it comes from, and how this run differs from it.
+    pub(super) fn introduce(&self, device: &DeviceInfo, set: &[(String, String)]) -> Result<()> {
         let run = &self.run;
         let commit = run.commit.as_deref().map_or_else(String::new, |commit| format!(", commit {commit}"));
         let partial = if run.partial { ", interrupted" } else { "" };
@@ -171,31 +166,35 @@ impl Baseline {
             print(format_args!("its driver was {}, this is {}", run.device.driver, device.driver))?;
         }
         if run.set != set {
-            let pairs = |set: &[(String, String)]| match set {
-                [] => "nothing".into(),
-                set => set.iter().map(|(key, value)| format!("{key}={value}")).collect::<Vec<_>>().join(", "),
-            };
             print(format_args!("--set was {}, is {}", pairs(&run.set), pairs(set)))?;
         }
-        print(format_args!(
-            "{:<24} {:<6} {:>10} {:>10} {:>7}  {:<15}  verdict",
-            "point", "time", "before, ms", "now, ms", "ratio", "95 % interval"
-        ))?;
-        points.iter().try_for_each(|point| match &point.comparison {
-            Some(comparison) => print(format_args!("{:<24} {comparison}", point.scene)),
-            None => print(format_args!("{:<24} not in the baseline", point.scene)),
-        })?;
-        let count = |verdict| {
-            let verdicts = points.iter().filter_map(|point| point.comparison.as_ref());
-            verdicts.filter(|comparison| comparison.ratio.verdict == verdict).count()
-        };
-        print(format_args!(
-            "{} faster, {} slower, {} undecided",
-            count(Verdict::Faster),
-            count(Verdict::Slower),
-            count(Verdict::Undecided)
-        ))
+        Ok(())
     }
+}
+
+fn pairs(set: &[(String, String)]) -> String {
+    match set {
+        [] => "nothing".into(),
+        set => set.iter().map(|(key, value)| format!("{key}={value}")).collect::<Vec<_>>().join(", "),
+    }
+}
+
+/// Prints the comparisons as a table.
+pub(super) fn print_comparisons(points: &[Point]) -> Result<()> {
+    print(format_args!(
+        "{:<24} {:<6} {:>10} {:>10} {:>7}  {:<15}  verdict",
+        "point", "time", "before, ms", "now, ms", "ratio", "95 % interval"
+    ))?;
+    points.iter().try_for_each(|point| match &point.comparison {
+        Some(comparison) => print(format_args!("{:<24} {comparison}", point.scene)),
+        None => print(format_args!("{:<24} not in the baseline", point.scene)),
+    })?;
+    let count = |verdict| {
+        let verdicts = points.iter().filter_map(|point| point.comparison.as_ref());
+        verdicts.filter(|comparison| comparison.ratio.verdict == verdict).count()
+    };
+    let [faster, slower, undecided] = [Verdict::Faster, Verdict::Slower, Verdict::Undecided].map(count);
+    print(format_args!("{faster} faster, {slower} slower, {undecided} undecided"))
 }
 
 impl std::fmt::Display for Comparison {

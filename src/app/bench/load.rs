@@ -5,7 +5,9 @@ use cpu_time::ProcessTime;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
-/// Share of all processors that others may take before it is worth a warning.
+/// Share of all processors that others may take before it is worth a warning. CPU time does not go by load alone: on two
+/// processors of which others took 1.4 in one run and 0.9 in the next, 18 points of the same program, small frames of ten
+/// samples, took 1.03 to 1.8 times as much, and 9 of them were called slower.
 const TOLERATED: f64 = 0.05;
 /// The accounts are kept in hundredths of a second: over less time than this they say little.
 const SHORTEST: Duration = Duration::from_millis(500);
@@ -87,7 +89,7 @@ impl Load {
         if self.is_busy() {
             complain(format_args!(
                 "warning: the machine is busy {when}: others take {:.2} of its {} processors\n  remedy: end them, or \
-                 measure again on an idle machine; until then, doubt the times",
+                 measure again on an idle machine; until then, doubt times and verdicts",
                 self.others + self.stolen,
                 self.processors
             ));
