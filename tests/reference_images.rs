@@ -149,7 +149,8 @@ fn gathered(scene: &Scene, bounces: u32) -> HdrImage {
     let tracer = Tracer::new(&scene, gpu_scene.origin);
     for round in 0..3 {
         let set = tracer.trace(scene.render.vpls as usize, round);
-        let trees = [&VirtualTree::default(), &VirtualTree::new(&set.emitters), &VirtualTree::new(&set.bounced)];
+        let trees =
+            [&VirtualTree::default(), &VirtualTree::new(&set.emitters), &VirtualTree::new(&set.bounced)];
         frame.set_gathered_lights(GatheredLights::new(&device, trees, set.spacing).unwrap());
         for _ in 0..GATHER_STRATA {
             frame.gather(&inputs).unwrap();

@@ -12,4 +12,3 @@ mod points;
 mod support;
 mod visibility;
 mod worlds;
-mod scratch;

@@ -19,7 +19,9 @@ pub(crate) fn scene(text: &str, files: &[(&str, &[u8])]) -> Scene {
 /// `render` are keys of [render], `floor` is the floor's material.
 pub(crate) fn room(render: &str, floor: &str, more: &str) -> String {
     let wall = |material: &str, place: &str, turn: &str| {
-        format!("[[mesh]]\nshape = \"plane\"\nsize = 2\nmaterial = \"{material}\"\ntranslate = {place}\nrotate = {turn}\n")
+        format!(
+            "[[mesh]]\nshape = \"plane\"\nsize = 2\nmaterial = \"{material}\"\ntranslate = {place}\nrotate = {turn}\n"
+        )
     };
     let matte = |name: &str, color: &str| {
         format!("[[material]]\nname = \"{name}\"\ntype = \"matte\"\ncolor = {color}\n")
@@ -60,24 +62,18 @@ pub(crate) struct Rig {
     pub(crate) scene: Scene,
     pub(crate) gpu_scene: Arc<GpuScene>,
     pub(crate) frame: Frame,
-    pub(crate) device: CheckedGpu,
-    seed: u64,
+    device: CheckedGpu,
 }
 
 impl Rig {
     /// The scene's direct light is there, and nothing gathered.
     pub(crate) fn new(scene: Scene) -> Self {
-        Self::seeded(scene, 0)
-    }
-
-    /// With light paths of another seed.
-    pub(crate) fn seeded(scene: Scene, seed: u64) -> Self {
         let device = CheckedGpu::open();
         let gpu_scene = Arc::new(GpuScene::new(&device, &scene).unwrap());
         let settings = FrameSettings::new(&scene.render, &scene.cameras[0]);
         let mut frame = Frame::new(&device, &gpu_scene, settings).unwrap();
         frame.render(&inputs(&scene)).unwrap();
-        Self { scene, gpu_scene, frame, device, seed }
+        Self { scene, gpu_scene, frame, device }
     }
 
     /// Starts anew at another size.
@@ -88,13 +84,13 @@ impl Rig {
 
     /// So many rounds more: lights anew, and a frame for each stratum.
     pub(crate) fn refine(&mut self, rounds: u32) {
-        let Self { scene, gpu_scene, frame, device, seed } = self;
+        let Self { scene, gpu_scene, frame, device } = self;
         let origin = gpu_scene.origin;
         let tracer = frame.gathers().indirect.then(|| Tracer::new(scene, origin));
         let points = VirtualTree::of_points(&scene.point_lights, origin);
         for _ in 0..rounds {
             let round = u64::from(frame.gathered() / GATHER_STRATA);
-            let set = tracer.as_ref().map(|tracer| tracer.trace(scene.render.vpls as usize, *seed << 32 | round));
+            let set = tracer.as_ref().map(|tracer| tracer.trace(scene.render.vpls as usize, round));
             let set = set.unwrap_or_default();
             let trees = [&points, &VirtualTree::new(&set.emitters), &VirtualTree::new(&set.bounced)];
             frame.set_gathered_lights(GatheredLights::new(device, trees, set.spacing).unwrap());
@@ -159,7 +155,7 @@ impl Truth {
     /// What the frame gathers, by so many paths a pixel: all light but what shines directly from area lights, and from
     /// points where those have no shadows.
     pub(crate) fn gathered(scene: &Scene, paths: u32) -> Self {
-        let options = Options { seed: 7, paths, bounces: scene.render.bounces, ..Options::of_scene(scene) };
+        let options = Options { seed: 11, paths, bounces: scene.render.bounces, ..Options::of_scene(scene) };
         let all = Self::new(scene, &Options { integrator: Integrator::Path, ..options });
         let mut others = scene.clone();
         if scene.render.shadows {
@@ -221,7 +217,10 @@ pub(crate) fn judge_by(what: &str, mut rig: Rig, truth: &Truth) -> Rig {
             let estimate = rig.estimate();
             let ratio = truth.rmse(&gathered) / estimate;
             ratios.push(ratio);
-            line += &format!("; {round} rounds: estimate {:.1} %, error over it {ratio:.2}", 100.0 * estimate / want);
+            line += &format!(
+                "; {round} rounds: estimate {:.1} %, error over it {ratio:.2}",
+                100.0 * estimate / want
+            );
         }
     }
     let n = means.len() as f64;

@@ -14,9 +14,9 @@ const BOARDS: &str = "[[mesh]]\nshape = \"box\"\nsize = [0.6, 1.9, 0.05]\nmateri
 /// around it.
 #[test]
 fn grooves() {
-    let render = "size = [48, 36]\nindirect = { vpls = 2048, bounces = 6 }";
+    let render = "size = [40, 30]\nindirect = { vpls = 2048, bounces = 6 }";
     let scene = scene(&room(render, "type = \"matte\"\ncolor = [0.9, 0.9, 0.9]", BOARDS), &[]);
-    let truth = Truth::gathered(&scene, 250);
+    let truth = Truth::gathered(&scene, 200);
     let rig = judge_by("grooves", Rig::new(scene), &truth);
     let picture = rig.gathered();
     let [width, height] = [picture.width, picture.height].map(|side| side as i32);
@@ -36,7 +36,7 @@ fn grooves() {
 #[test]
 fn thin_wall() {
     let text = room(
-        "size = [48, 36]\nindirect = { vpls = 2048, bounces = 4 }",
+        "size = [40, 30]\nindirect = { vpls = 2048, bounces = 4 }",
         MATTE,
         "[[material]]\nname = \"front\"\ntype = \"matte\"\ncolor = [0.7, 0.7, 0.7]\ntwo_sided = false\n\
          [[mesh]]\nshape = \"plane\"\nsize = 2\nmaterial = \"front\"\ntranslate = [0, 1, 1]\nrotate = [-90, 0, 0]\n\
@@ -45,13 +45,14 @@ fn thin_wall() {
          radiance = [14, 12, 9]\nvisible = false\n",
     );
     let scene = scene(&text, &[]);
-    let truth = Truth::gathered(&scene, 250);
+    let truth = Truth::gathered(&scene, 200);
     let rig = judge_by("thin wall", Rig::new(scene), &truth);
     // The viewer is in the wall's plane: what is left of the middle is lit.
     let picture = rig.gathered();
     let half = |right: bool| {
         let pixels = picture.pixels.iter().enumerate();
-        let of_half = pixels.filter(move |(index, _)| (*index as u32 % picture.width >= picture.width / 2) == right);
+        let of_half =
+            pixels.filter(move |(index, _)| (*index as u32 % picture.width >= picture.width / 2) == right);
         of_half.flat_map(|(_, pixel)| *pixel).collect::<Vec<f32>>()
     };
     let (lit, dark) = (half(false), half(true));

@@ -11,14 +11,14 @@ const THREE: &str = "size = [32, 24]\nindirect = { vpls = 2048, bounces = 3 }";
 #[test]
 fn background() {
     let render = format!("{THREE}\nbackground = [0.3, 0.5, 0.9]");
-    judge("background", scene(&room(&render, MATTE, &[LAMP, THINGS].concat()), &[]), 400);
+    judge("background", scene(&room(&render, MATTE, &[LAMP, THINGS].concat()), &[]), 300);
 }
 
 /// A ball of few facets, whose normals are far from those of its triangles.
 #[test]
 fn smooth_normals() {
     let things = THINGS.replace("segments = 32", "segments = [7, 4]");
-    judge("smooth normals", scene(&room(THREE, MATTE, &[LAMP, &things].concat()), &[]), 400);
+    judge("smooth normals", scene(&room(THREE, MATTE, &[LAMP, &things].concat()), &[]), 300);
 }
 
 #[test]
@@ -35,7 +35,7 @@ fn orthographic_camera() {
     let lamp = LAMP.replace("visible = false\n", "").replace("1.98", "1.7");
     let text = room(THREE, MATTE, &[&lamp, THINGS].concat());
     let text = text.replace("vertical_fov = 42", "orthographic_height = 2.2");
-    judge("orthographic", scene(&text, &[]), 400);
+    judge("orthographic", scene(&text, &[]), 300);
 }
 
 /// Some 100 km out, where float32 tells places 8 mm apart.
@@ -55,5 +55,5 @@ fn far_from_the_origin() {
     let there: DVec3 = there.as_dvec3();
     camera.position += there;
     camera.target += there;
-    judge("far", scene, 400);
+    judge("far", scene, 300);
 }

@@ -95,6 +95,8 @@ fn hits_fill_whole_texels() {
     assert_eq!(places("HitMaterial"), [0, 12, 16, 28, 32, 36, 40, 44, 48, 52, 56, 60, 64, 68, 72, 76]);
     assert_eq!(of("HitMaterial").size, 16 * shared::HIT_MATERIAL_TEXELS as usize);
     assert_eq!((places("HitTexture"), of("HitTexture").size), (vec![0, 4, 8, 12], 16));
+}
+
 /// Two texels of a vector and a scalar each.
 #[test]
 fn virtual_lights_fill_two_texels() {
