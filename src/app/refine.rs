@@ -6,7 +6,7 @@ use crate::gpu::Device;
 use crate::gpu_scene::GpuScene;
 use crate::passes::gather::GatheredLights;
 use crate::scene::Scene;
-use crate::shared::GATHER_STRATA;
+use crate::shared::GATHER_FRAMES;
 use crate::virtual_lights::{Tracer, VirtualTree};
 use std::sync::Arc;
 use std::time::Instant;
@@ -63,11 +63,11 @@ pub(super) fn refine(
     let mut timings = Timings::default();
     loop {
         timings.add(&Timings::of("trace", || {
-            let lights = rounds.lights(device, frame.gathered() / GATHER_STRATA)?;
+            let lights = rounds.lights(device, frame.gathered() / GATHER_FRAMES)?;
             frame.set_gathered_lights(lights);
             Ok(())
         })?);
-        for _ in 0..GATHER_STRATA {
+        for _ in 0..GATHER_FRAMES {
             timings.add(&frame.gather(inputs)?);
             if goal.time_limit.is_some_and(|limit| start.elapsed().as_secs_f64() >= limit) {
                 return Ok((timings, frame.gathered_error()?));

@@ -8,7 +8,7 @@ use crate::image::HdrImage;
 use crate::passes::PassInputs;
 use crate::passes::forward::Sample;
 use crate::passes::gather::{Gather, Gathered, GatheredLights};
-use crate::shared::{GATHER_STRATA, GATHER_SUBSETS};
+use crate::shared::{GATHER_FRAMES, GATHER_SUBSETS};
 use crate::targets::Targets;
 use std::sync::Arc;
 use super::timing::Stopwatch;
@@ -41,7 +41,7 @@ impl Frame {
         self.gathered
     }
 
-    /// Adds a frame of gathered light to the picture, from the lights set last; every `GATHER_STRATA` frames make a round,
+    /// Adds a frame of gathered light to the picture, from the lights set last; every `GATHER_FRAMES` frames make a round,
     /// for which other lights are due. Nothing where there is nothing to gather.
     ///
     /// # Errors
@@ -134,15 +134,15 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn gathered_error(&self) -> Result<Option<f64>> {
-        let rounds = self.gathered / GATHER_STRATA;
+        let rounds = self.gathered / GATHER_FRAMES;
         let Some(sums) = self.sums()?.filter(|_| rounds >= 2) else { return Ok(None) };
         // Frames of each subset, and the subsets that have any.
         let subsets = SUBSETS.min(rounds as usize);
         let frames = |subset: usize| {
-            let whole = u64::from(self.gathered) / u64::from(GATHER_STRATA) / SUBSETS as u64;
-            let rest = u64::from(self.gathered) - whole * u64::from(GATHER_STRATA) * SUBSETS as u64;
-            let own = rest.saturating_sub(subset as u64 * u64::from(GATHER_STRATA)).min(u64::from(GATHER_STRATA));
-            (whole * u64::from(GATHER_STRATA) + own) as f64
+            let whole = u64::from(self.gathered) / u64::from(GATHER_FRAMES) / SUBSETS as u64;
+            let rest = u64::from(self.gathered) - whole * u64::from(GATHER_FRAMES) * SUBSETS as u64;
+            let own = rest.saturating_sub(subset as u64 * u64::from(GATHER_FRAMES)).min(u64::from(GATHER_FRAMES));
+            (whole * u64::from(GATHER_FRAMES) + own) as f64
         };
         let counts: Vec<f64> = (0..subsets).map(frames).collect();
         let all: f64 = counts.iter().sum();
