@@ -10,7 +10,7 @@ use amas::compare::{Figures, Mask, Options as Compare, compare};
 use amas::passes::gather::GatheredLights;
 use amas::reference::{Integrator, Options, render};
 use amas::scene::{self, Scene};
-use amas::shared::GATHER_STRATA;
+use amas::shared::GATHER_FRAMES;
 use amas::virtual_lights::{Tracer, VirtualTree};
 use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage};
 use common::gpu::CheckedGpu;
@@ -152,7 +152,7 @@ fn gathered(scene: &Scene, bounces: u32) -> HdrImage {
         let trees =
             [&VirtualTree::default(), &VirtualTree::new(&set.emitters), &VirtualTree::new(&set.bounced)];
         frame.set_gathered_lights(GatheredLights::new(&device, trees, set.spacing).unwrap());
-        for _ in 0..GATHER_STRATA {
+        for _ in 0..GATHER_FRAMES {
             frame.gather(&inputs).unwrap();
         }
     }

@@ -3,7 +3,7 @@
 use amas::passes::gather::GatheredLights;
 use amas::reference::{self, Integrator, Options};
 use amas::scene::load_embedded;
-use amas::shared::GATHER_STRATA;
+use amas::shared::GATHER_FRAMES;
 use amas::virtual_lights::{Tracer, VirtualTree};
 use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage, Scene};
 use std::sync::Arc;
@@ -89,12 +89,12 @@ impl Rig {
         let tracer = frame.gathers().indirect.then(|| Tracer::new(scene, origin));
         let points = VirtualTree::of_points(&scene.point_lights, origin);
         for _ in 0..rounds {
-            let round = u64::from(frame.gathered() / GATHER_STRATA);
+            let round = u64::from(frame.gathered() / GATHER_FRAMES);
             let set = tracer.as_ref().map(|tracer| tracer.trace(scene.render.vpls as usize, round));
             let set = set.unwrap_or_default();
             let trees = [&points, &VirtualTree::new(&set.emitters), &VirtualTree::new(&set.bounced)];
             frame.set_gathered_lights(GatheredLights::new(device, trees, set.spacing).unwrap());
-            for _ in 0..GATHER_STRATA {
+            for _ in 0..GATHER_FRAMES {
                 frame.gather(&inputs(scene)).unwrap();
             }
         }
