@@ -10,37 +10,28 @@ const THREE: &str = "size = [32, 24]\nindirect = { vpls = 2048, bounces = 3 }";
 #[test]
 fn convergence() {
     const ROUNDS: usize = 32;
-    let floor =
-        "type = \"plastic\"\ndiffuse = [0.3, 0.3, 0.3]\nspecular = [0.9, 0.9, 0.9]\neta = 1.8\nalpha = 0.12";
-    for (what, floor) in [("matte", MATTE), ("plastic", floor)] {
-        let scene = scene(&room(THREE, floor, &[LAMP, THINGS].concat()), &[]);
-        let truth = Truth::gathered(&scene, 700);
-        let mut rig = Rig::new(scene);
-        // Sums of the first n rounds.
-        let mut sums = vec![HdrImage::new(32, 24)];
-        for round in 1..=ROUNDS {
-            rig.refine(1);
-            sums.push(scaled(rig.gathered(), round as f32));
-        }
-        // Over 1 to 16 rounds, all that are disjoint.
-        let points: Vec<[f64; 2]> = [1, 2, 4, 8, 16]
-            .map(|n| {
-                let starts: Vec<usize> = (0..ROUNDS).step_by(n).collect();
-                let square = |&start: &usize| {
-                    let own = sums[start + n].clone().plus(&scaled(sums[start].clone(), -1.0));
-                    truth.rmse(&scaled(own, 1.0 / n as f32)).powi(2)
-                };
-                let mean = starts.iter().map(square).sum::<f64>() / starts.len() as f64;
-                [(n as f64).ln(), 0.5 * mean.ln()]
-            })
-            .to_vec();
-        let slope = slope(&points);
-        println!(
-            "{what}: slope {slope:.3}, errors {:?}",
-            points.iter().map(|p| p[1].exp()).collect::<Vec<_>>()
-        );
-        assert!(slope <= -0.45, "{what}: {slope}, {points:?}");
+    let scene = scene(&room(THREE, MATTE, &[LAMP, THINGS].concat()), &[]);
+    let truth = Truth::gathered(&scene, 600);
+    let mut rig = Rig::new(scene);
+    // Sums of the first n rounds.
+    let mut sums = vec![HdrImage::new(32, 24)];
+    for round in 1..=ROUNDS {
+        rig.refine(1);
+        sums.push(scaled(rig.gathered(), round as f32));
     }
+    // Of 1 to 16 rounds all runs that are disjoint.
+    let error = |n: usize| {
+        let square = |start: usize| {
+            let own = sums[start + n].clone().plus(&scaled(sums[start].clone(), -1.0));
+            truth.rmse(&scaled(own, 1.0 / n as f32)).powi(2)
+        };
+        let mean = (0..ROUNDS).step_by(n).map(square).sum::<f64>() * n as f64 / ROUNDS as f64;
+        [(n as f64).ln(), 0.5 * mean.ln()]
+    };
+    let points = [1, 2, 4, 8, 16].map(error);
+    let slope = slope(&points);
+    println!("slope {slope:.3}, errors {:?}", points.map(|point| point[1].exp()));
+    assert!(slope <= -0.45, "{slope}: {points:?}");
 }
 
 fn scaled(mut image: HdrImage, factor: f32) -> HdrImage {
