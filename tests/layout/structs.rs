@@ -8,8 +8,7 @@ use crate::modules;
 use crate::spirv::{Module, decoration};
 
 /// Structs that shaders take from textures.
-const IN_TEXELS: [&str; 11] = [
-const IN_TEXELS: [&str; 9] = [
+const IN_TEXELS: [&str; 13] = [
     "LightNode",
     "MomentNode",
     "BvhHeader",
@@ -20,7 +19,6 @@ const IN_TEXELS: [&str; 9] = [
     "HitTangents",
     "HitMaterial",
     "HitTexture",
-    "AreaRecord",
     "AreaRecord",
     "VirtualLight",
     "VirtualNode",
