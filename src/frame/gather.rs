@@ -2,7 +2,7 @@
 
 use super::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::error::Result;
-use crate::gpu::Use;
+use crate::gpu::{Device, Use};
 use crate::gpu_scene::GpuScene;
 use crate::image::HdrImage;
 use crate::passes::PassInputs;
@@ -10,6 +10,7 @@ use crate::passes::forward::Sample;
 use crate::passes::gather::{Gather, Gathered, GatheredLights};
 use crate::shared::{GATHER_FRAMES, GATHER_SUBSETS};
 use crate::targets::Targets;
+use std::sync::Arc;
 use super::timing::Stopwatch;
 
 const SUBSETS: usize = GATHER_SUBSETS as usize;
@@ -128,7 +129,7 @@ impl Frame {
     }
 
     /// Estimated relative error of the picture that comes of gathered light: the root of the mean square over pixels of its
-    /// standard error, over the mean of the picture. `None` before two rounds are complete.
+    /// standard error, over the mean of the picture; 0 of a black picture. `None` before two rounds are complete.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
@@ -159,7 +160,8 @@ impl Frame {
         let picture = self.hdr()?;
         let total: f64 = picture.pixels.iter().flatten().map(|&value| f64::from(value)).sum();
         let values = (3 * picture.pixels.len()) as f64;
-        Ok((total > 0.0).then(|| (variance / values).sqrt() / (total / values)))
+        let relative = (variance / values).sqrt() / (total / values);
+        Ok(Some(if variance > 0.0 { relative } else { 0.0 }))
     }
 }
 
@@ -176,5 +178,19 @@ pub(super) fn wanted(scene: &GpuScene, settings: &FrameSettings) -> Gathered {
 }
 
 pub(super) fn pass(inputs: &PassInputs<'_>, targets: &Targets, wanted: Gathered) -> Result<Option<Gather>> {
-    wanted.anything().then(|| Gather::new(inputs, targets, wanted)).transpose()
+    let pass = wanted.anything().then(|| Gather::new(inputs, targets, wanted)).transpose()?;
+    if let Some(gather) = &pass {
+        blacken(inputs.device, gather)?;
+    }
+    Ok(pass)
+}
+
+/// Makes the sums black: the present subpass reads them before anything is gathered.
+pub(super) fn blacken(device: &Arc<Device>, gather: &Gather) -> Result<()> {
+    device.run("gathered light", |cmd| {
+        cmd.transition(gather.sums(), Use::Nothing, Use::TransferWrite);
+        cmd.clear(gather.sums());
+        cmd.transition(gather.sums(), Use::TransferWrite, Use::FragmentRead);
+        Ok(())
+    })
 }
