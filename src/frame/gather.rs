@@ -55,6 +55,23 @@ impl Frame {
         self.gather.as_ref().map_or(0, Gather::rows)
     }
 
+    /// Of the next frame of gathered light: rows of blocks that are done.
+    #[must_use]
+    pub fn rows_gathered(&self) -> u32 {
+        self.gathered_rows
+    }
+
+    /// Whether samples from now on have the point lights whose light is gathered, but without shadows: for a picture that is
+    /// to be seen at once. Only where [`FrameSettings::preview`] is set.
+    pub fn preview(&mut self, preview: bool) {
+        self.previews = preview;
+    }
+
+    /// Whether samples have point lights.
+    pub(super) fn has_points(&self) -> bool {
+        self.previews || !self.work.gathered.points
+    }
+
     /// As [`Frame::gather`], the next so many rows of the frame; with the last of them the frame counts.
     ///
     /// # Errors
@@ -73,7 +90,7 @@ impl Frame {
         let complete = end == gather.rows();
         self.gathered_rows = if complete { 0 } else { end };
         self.gathered += u32::from(complete);
-        let sample = Sample { first: false, shaded: false, scales: self.scales(inputs, self.samples) };
+        let sample = Sample { first: false, shaded: false, points: false, scales: self.scales(inputs, self.samples) };
         let before = watch.cpu();
         self.device.run("gather", |cmd| {
             if first == 0 {

@@ -111,7 +111,7 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn light_error(&self) -> Result<f64> {
-        if !self.work.cut && !self.work.folded {
+        if !self.has_points() || !self.work.cut && !self.work.folded {
             return Ok(0.0);
         }
         Ok(self.fold_error()? + self.cut_error()?)
