@@ -51,6 +51,12 @@ pub enum Error {
         /// The operating system's answer.
         source: std::io::Error,
     },
+    /// The user ended a long job early.
+    #[error("interrupted: {0}\n  remedy: run it again to the end")]
+    Interrupted(
+        /// How far it came.
+        String,
+    ),
     /// The validation layers spoke.
     #[error(
         "the validation layers reported {count} message(s); the first: {first}\n  remedy: this is a bug in amas or in the driver; please report it with this text"
@@ -102,7 +108,7 @@ impl Error {
         match self {
             Self::Input { .. } | Self::Usage { .. } => 2,
             Self::NoDevice { .. } => 3,
-            Self::Vulkan { .. } | Self::Write { .. } | Self::Validation { .. } => 1,
+            Self::Vulkan { .. } | Self::Write { .. } | Self::Interrupted(_) | Self::Validation { .. } => 1,
         }
     }
 }

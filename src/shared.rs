@@ -332,8 +332,12 @@ shared! {
         SPEC_GATHER_LAMBERT = 57;
         /// Pixels along a side of a workgroup that gathers.
         GATHER_SIDE = 8;
-        /// Frames of a round: each pixel of a block of 4 × 4 draws from another of so many strata in each.
-        GATHER_STRATA = 16;
+        /// Pixels of a workgroup.
+        GATHER_PIXELS = 64;
+        /// Lights that a workgroup draws from a tree, for all its pixels to choose from; half the pixels.
+        GATHER_DRAWN = 32;
+        /// Frames of a round, which have the same virtual lights.
+        GATHER_FRAMES = 16;
         /// Independent sums of rounds, from which the error is told.
         GATHER_SUBSETS = 4;
         /// log2 of the texels across the texture of gathered lights and their trees.
@@ -546,7 +550,7 @@ shared! {
             bound: float;
             /// Bounces between the eye's surface and a light, at most.
             bounces: uint;
-            /// Frame of the round, below `GATHER_STRATA`.
+            /// Frame of the round, below `GATHER_FRAMES`.
             frame: uint;
             /// Another one for each round.
             seed: uint;

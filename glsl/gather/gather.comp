@@ -1,5 +1,6 @@
-// Light that comes by way of other surfaces, and that of lights whose shadows are wanted: per pixel one light drawn from each
-// tree, and a path as far as what drawing lights leaves to it. The mean over frames is that of all paths from the eye.
+// Light that comes by way of other surfaces, and that of lights whose shadows are wanted: per pixel one light of each tree,
+// chosen among some that were drawn for its tile, and a path as far as that light leaves it something to find. The mean over
+// frames is that of all paths from the eye.
 //
 // At each vertex of the path, virtual lights stand for the Lambertian share of what the surfaces beyond reflect: of that, the
 // part that does not grow beyond a bound (Kollig and Keller 2004, Illumination in the Presence of Weak Singularities). The
@@ -16,6 +17,7 @@
 #include "gather/vertex.glsl"
 #include "bind/hit.glsl"
 #include "gather/trees.glsl"
+#include "gather/tile.glsl"
 #include "gather/visible.glsl"
 
 layout(local_size_x = GATHER_SIDE, local_size_y = GATHER_SIDE) in;
@@ -42,52 +44,81 @@ float random() {
 
 vec2 random_pair() { return vec2(random(), random()); }
 
-// What one light of a tree adds. A virtual light's light is shared with paths.
-vec3 drawn(Vertex v, uvec2 tree, float u, float bound, uint most_bounces, bool with_normals) {
-    Lit lit = Lit(v.position, v.world_from_local[2], bound);
-    Drawn choice = draw_light(tree, lit, u, random_state, with_normals);
-    VirtualLight light = gathered_light(tree, choice.light);
+// What arrives of a light, of its color; `facing` is the cosine at the light, 1 of one that shines all around.
+float arriving(float d2, float facing, uint extra, uint most_bounces, bool with_normals) {
+    if (with_normals) return extra <= most_bounces ? max(facing, 0.0) / max(d2, 1e-12) : 0.0;
+    float inverse_range2 = uintBitsToFloat(extra);
+    return falloff(d2, inverse_range2, inverse_range2 > 0.0 ? 1e-4 : 1e-12);
+}
+
+// What a light adds to a vertex, over the probability that it was chosen.
+vec3 from_light(Vertex v, VirtualLight light, float over, float bound, uint most_bounces, bool with_normals) {
     vec3 to_light = light.position - v.position;
     float d2 = dot(to_light, to_light);
     vec3 direction = to_light * inversesqrt(max(d2, TINY));
     vec3 wi = direction * v.world_from_local;
+    float facing = with_normals ? -dot(direction, unpack_unit(light.normal)) : 1.0;
     vec3 reflected = response(v, wi);
-    float arriving = 0.0;
-    if (with_normals) {
-        float facing = -dot(direction, unpack_unit(light.normal));
-        float share = bound < UNBOUNDED ? gathered_share(bound, reflected, wi.z, facing, d2) : 1.0;
-        arriving = light.extra <= most_bounces ? max(facing, 0.0) * share / max(d2, 1e-12) : 0.0;
-    } else {
-        float inverse_range2 = uintBitsToFloat(light.extra);
-        arriving = falloff(d2, inverse_range2, inverse_range2 > 0.0 ? 1e-4 : 1e-12);
-    }
-    arriving = wi.z > 0.0 && dot(direction, v.geometric) > 0.0 && choice.probability > 0.0 ? arriving : 0.0;
-    vec3 sum = reflected * light.color * (arriving / max(choice.probability, TINY));
+    float share = bound < UNBOUNDED ? gathered_share(bound, reflected, wi.z, facing, d2) : 1.0;
+    float factor = over * share * arriving(d2, facing, light.extra, most_bounces, with_normals);
+    bool lit = wi.z > 0.0 && dot(direction, v.geometric) > 0.0;
+    vec3 sum = lit ? reflected * light.color * factor : vec3(0.0);
     bool dark = sum == vec3(0.0);
     if (SHADOWS && !dark) dark = occluded(v.origin, direction, 0.0, sqrt(d2) * (1.0 - 1e-4));
     return dark ? vec3(0.0) : sum;
 }
 
+// One light of a tree.
+vec3 drawn(Vertex v, uvec2 tree, float bound, uint most_bounces, bool with_normals) {
+    Lit lit = Lit(v.position, vec3(0.0), v.world_from_local[2], 1.0, bound);
+    Drawn choice = draw_light(tree, lit, random(), random_state, with_normals);
+    float over = choice.probability > 0.0 ? 1.0 / choice.probability : 0.0;
+    return from_light(v, gathered_light(tree, choice.light), over, bound, most_bounces, with_normals);
+}
+
+// One of the lights drawn for the tile, chosen by about what it adds unless it is hidden (Talbot et al. 2005, Importance
+// Resampling for Global Illumination).
+vec3 chosen(Vertex v, uint first, uvec2 tree, float bound, uint most_bounces, bool with_normals) {
+    float u = random();
+    float sum = 0.0;
+    float target = 1.0;
+    uint light = 0u;
+    for (uint i = first; i < first + GATHER_DRAWN; ++i) {
+        Candidate c = tile_lights[i];
+        vec3 to_light = c.position - v.position;
+        float d2 = dot(to_light, to_light);
+        vec3 direction = to_light * inversesqrt(max(d2, TINY));
+        float cosine = dot(direction, v.world_from_local[2]);
+        bool lit = cosine > 0.0 && dot(direction, v.geometric) > 0.0;
+        float facing = with_normals ? -dot(direction, c.normal) : 1.0;
+        float geometry = lit ? cosine * arriving(d2, facing, c.extra, most_bounces, with_normals) : 0.0;
+        float about = c.power * min(geometry, bound);
+        float weight = about * c.weight;
+        sum += weight;
+        // Whether this one takes the place of those before; what is left of the number decides on.
+        float at = u * sum;
+        bool takes = at < weight;
+        float rest = takes ? weight : sum - weight;
+        u = rest > 0.0 ? min((takes ? at : at - weight) / rest, 0.99999994) : u;
+        light = takes ? c.light : light;
+        target = takes ? about : target;
+    }
+    return from_light(v, gathered_light(tree, light), sum / max(target, TINY), bound, most_bounces, with_normals);
+}
+
 // Light of the scene's own lights.
 vec3 own_lights(Vertex v) {
     vec3 sum = vec3(0.0);
-    if (gather.points.y > 0u) sum += drawn(v, gather.points, random(), UNBOUNDED, 0u, ALL_AROUND);
-    if (gather.emitters.y > 0u) sum += drawn(v, gather.emitters, random(), UNBOUNDED, 0u, WITH_NORMALS);
+    if (gather.points.y > 0u) sum += drawn(v, gather.points, UNBOUNDED, 0u, ALL_AROUND);
+    if (gather.emitters.y > 0u) sum += drawn(v, gather.emitters, UNBOUNDED, 0u, WITH_NORMALS);
     return sum;
 }
 
-vec3 virtual_lights(Vertex v, float u, uint bounces) {
+// Bounces are those that are left.
+vec3 virtual_lights(Vertex v, bool seen, uint bounces) {
     if (gather.virtuals.y == 0u || bounces == 0u) return vec3(0.0);
-    return drawn(v, gather.virtuals, u, gather.bound, bounces, WITH_NORMALS);
-}
-
-// In 16 frames a pixel of a block of 4 × 4 draws from all strata, in each frame its block does.
-float stratified(uvec2 pixel) {
-    uint place = (pixel.x & 3u) * 4u + (pixel.y & 3u);
-    uint shift = hash(hash(pixel.x >> 2) ^ (pixel.y >> 2) ^ gather.seed);
-    // 7 and 16 have no common divisor.
-    uint stratum = (place * 7u + gather.frame + shift) % GATHER_STRATA;
-    return (float(stratum) + random()) * (1.0 / float(GATHER_STRATA));
+    if (seen) return chosen(v, 0u, gather.virtuals, gather.bound, bounces, WITH_NORMALS);
+    return drawn(v, gather.virtuals, gather.bound, bounces, WITH_NORMALS);
 }
 
 // Along a sampled direction: light of the background, or the next vertex with what the path has to find there.
@@ -124,13 +155,13 @@ Step step_from(Vertex v, vec3 throughput, inout vec3 radiance) {
     return next;
 }
 
-vec3 indirect(Vertex v, float u) {
+vec3 indirect(Vertex v) {
     vec3 radiance = vec3(0.0);
     vec3 throughput = vec3(1.0);
     bool goes_on = true;
     for (uint bounce = 0u; bounce <= gather.bounces && goes_on; ++bounce) {
         if (bounce > 0u) radiance += throughput * own_lights(v);
-        radiance += throughput * virtual_lights(v, bounce == 0u ? u : random(), gather.bounces - bounce);
+        radiance += throughput * virtual_lights(v, bounce == 0u, gather.bounces - bounce);
         if (bounce >= SAFE_BOUNCES) {
             float survival = min(greatest(abs(throughput)), 0.95);
             goes_on = random() < survival;
@@ -153,15 +184,31 @@ void add(ivec2 pixel, uint layer, vec3 radiance) {
     imageStore(sums, texel, imageLoad(sums, texel) + vec4(radiance, 0.0));
 }
 
+// Lights for the tile's pixels: virtual lights first, then the scene's own.
+void draw_for_tile(uint tile_seed) {
+    uint index = gl_LocalInvocationIndex;
+    bool own = index >= GATHER_DRAWN;
+    random_state = hash(tile_seed + index);
+    float u = (float(index % GATHER_DRAWN) + random()) * (1.0 / float(GATHER_DRAWN));
+    if (INDIRECT && !own) tile_lights[index] = candidate(gather.virtuals, tile_lit(gather.bound), u, random_state, WITH_NORMALS);
+    if (POINTS && own) tile_lights[index] = candidate(gather.points, tile_lit(UNBOUNDED), u, random_state, ALL_AROUND);
+    barrier();
+}
+
 void main() {
     uvec2 pixel = gl_GlobalInvocationID.xy + uvec2(0u, gather.row);
-    if (pixel.x >= frame.size.x || pixel.y >= frame.size.y) return;
-    Visible seen = visible_at(ivec2(pixel));
-    if (!seen.exists) return;
-    random_state = hash(hash(pixel.x + (pixel.y << 16)) ^ (gather.seed * GATHER_STRATA + gather.frame));
+    bool inside = pixel.x < frame.size.x && pixel.y < frame.size.y;
+    ivec2 at = ivec2(min(pixel, frame.size - 1u));
+    SeenPlace place = place_at(at);
+    note_pixel(inside && place.exists, place.position, place.normal);
+    uint frame_seed = hash(gather.seed * GATHER_FRAMES + gather.frame);
+    draw_for_tile(hash(frame_seed ^ (gl_WorkGroupID.x + ((gl_WorkGroupID.y + gather.row / GATHER_SIDE) << 16))));
+    if (!inside || !place.exists) return;
+    Vertex seen = visible_at(at);
+    random_state = hash(hash(pixel.x + (pixel.y << 16)) ^ frame_seed);
     if (POINTS) {
-        vec3 direct = drawn(seen.vertex, gather.points, stratified(pixel), UNBOUNDED, 0u, ALL_AROUND);
-        add(ivec2(pixel), GATHER_SUBSETS + gather.subset, direct);
+        vec3 own = chosen(seen, GATHER_DRAWN, gather.points, UNBOUNDED, 0u, ALL_AROUND);
+        add(at, GATHER_SUBSETS + gather.subset, own);
     }
-    if (INDIRECT) add(ivec2(pixel), gather.subset, indirect(seen.vertex, stratified(pixel)));
+    if (INDIRECT) add(at, gather.subset, indirect(seen));
 }

@@ -12,11 +12,13 @@ uvec4 gathered_texel(uint index) {
     return texelFetch(gathered_lights, texel, 0);
 }
 
-// What is lit: where, from which side, and how near a light may seem.
+// What is lit: places in a box, with normals in a cone.
 struct Lit {
-    vec3 position;
+    vec3 center;
+    vec3 extent;
     vec3 normal;
-    float bound;  // largest geometry term
+    float cosine;  // of the cone's half angle; 1: all are this one
+    float bound;  // largest geometry term: how near a light may seem
 };
 
 // Which lights a tree holds: those with a normal and a cone of them, or points that shine all around, with a range.
@@ -41,16 +43,20 @@ float importance(Lit lit, uint node, bool with_normals) {
     float power = uintBitsToFloat(a.w);
     vec3 lower = uintBitsToFloat(a.xyz);
     vec3 upper = uintBitsToFloat(b.xyz);
-    vec3 extent = 0.5 * (upper - lower);
-    vec3 offset = 0.5 * (lower + upper) - lit.position;
+    vec3 extent = 0.5 * (upper - lower) + lit.extent;
+    vec3 offset = 0.5 * (lower + upper) - lit.center;
     float d2 = dot(offset, offset);
     float r2 = dot(extent, extent);
     float inverse = inversesqrt(max(max(d2, r2), 1e-24));
     float above = dot(lit.normal, offset) + dot(abs(lit.normal), extent);
     float geometry = clamp(above * inverse, 0.0, 1.0);
+    float cos_widening = sqrt(max(1.0 - r2 * sqr(inverse), 0.0));
+    if (lit.cosine < 1.0) {
+        float tilted = cosine_in_cone(dot(lit.normal, offset) * inverse, lit.cosine, cos_widening);
+        geometry = d2 <= r2 ? 1.0 : max(tilted, 0.0);
+    }
     if (with_normals) {
         Cone cone = unpack_cone(b.w);
-        float cos_widening = sqrt(max(1.0 - r2 * sqr(inverse), 0.0));
         float facing = cosine_in_cone(-dot(cone.axis, offset) * inverse, cone.cosine, cos_widening);
         geometry *= d2 <= r2 ? 1.0 : max(facing, 0.0);
     } else {

@@ -68,10 +68,18 @@ Example:
   amas fit --out src/ltc/tables.bin --maps docs/ltc
   amas fit --layer metal --objective l2")]
     Fit(FitOptions),
-    /// Time the frame, pass by pass
-    #[command(
-        after_help = "Example:\n  amas bench scenes/light_grid.toml --size 640x360 --frames 20 --json bench.json"
-    )]
+    /// Time frames pass by pass, and starts, and compare them with an earlier run
+    #[command(after_help = "Examples:
+  amas bench scenes/light_grid.toml --size 640x360 --frames 20 --json bench.json
+  amas bench --suite lights --suite area --json before.json
+  amas bench --suite lights --suite area --baseline before.json
+
+A frame of each point is rendered in turn, round after round, so that whatever drifts on the machine is the same for all. Ctrl-C
+ends after the frame at hand: what was measured is printed and written, as partial. Figures are written after every round.
+
+A baseline is compared point by point where scene and size are the same: a point is faster or slower where that is so by more
+than 2 % with 95 % confidence, else it is undecided. CPU devices are judged by CPU time, others by device time. Compare runs of
+the same command on an idle machine.")]
     Bench(BenchOptions),
     /// Measure speed against error, and write tables and plots
     #[command(after_help = "Examples:
@@ -297,8 +305,11 @@ pub(super) enum ObjectiveName {
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct BenchOptions {
-    /// Scene files [default: the embedded scene]
+    /// Scene files [default: the embedded scene, where no suite is named]
     pub(super) scenes: Vec<PathBuf>,
+    /// Points that are part of the program, several times
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub(super) suite: Vec<Suite>,
     /// Picture size in pixels [default: the scene's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<[u32; 2]>,
@@ -307,18 +318,38 @@ pub(super) struct BenchOptions {
     pub(super) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(super) device: DeviceOptions,
-    /// Frames measured
+    /// Rounds: frames measured of each scene
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) frames: u32,
-    /// Frames rendered first and not measured
+    /// Frames of each rendered first and not measured
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub(super) warmup: u32,
     /// Also measure what a pair of pixel and light costs at least: its arithmetic alone, its fetches alone
     #[arg(long)]
     pub(super) floors: bool,
-    /// Figures as JSON
+    /// Figures as JSON, every measurement among them
     #[arg(long, value_name = "FILE")]
     pub(super) json: Option<PathBuf>,
+    /// Figures of an earlier run, as --json wrote them, to compare with
+    #[arg(long, value_name = "FILE.json")]
+    pub(super) baseline: Option<PathBuf>,
+}
+
+/// Points of `amas bench` that are part of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Suite {
+    /// Point lights: by their number, without a range, more than a list holds
+    Lights,
+    /// Area lights of every kind, many of them, a shadow
+    Area,
+    /// The five BSDFs
+    Bsdf,
+    /// Each pass where it is the dearest
+    Passes,
+    /// From nothing to the first picture, with the driver's cache warm
+    Startup,
+    /// All of these
+    All,
 }
 
 /// A chapter of the report.

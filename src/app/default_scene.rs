@@ -5,13 +5,13 @@ use crate::scene::Origin;
 /// Where to load it from; see `scenes/default.toml`.
 pub(super) const ORIGIN: Origin<'static> = Origin::Embedded("scenes/default.toml (embedded)", TOML, FILES);
 
-const TOML: &str = include_str!("../../scenes/default.toml");
+pub(super) const TOML: &str = include_str!("../../scenes/default.toml");
 
 macro_rules! files {
     ($($name:literal)*) => { &[$(($name, include_bytes!(concat!("../../scenes/", $name)))),*] };
 }
 
-const FILES: &[(&str, &[u8])] = files! {
+pub(super) const FILES: &[(&str, &[u8])] = files! {
     "default.obj"
     "default_arcade.obj"
     "default_lights.csv"

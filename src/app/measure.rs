@@ -2,11 +2,15 @@
 
 use serde::Serialize;
 
-/// Median, median absolute deviation and number of measurements.
+/// Bytes, as memory is told.
+pub(super) const MEGABYTE: f64 = 1024.0 * 1024.0;
+
+/// Median, median absolute deviation, least and number of measurements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub(super) struct Figure {
     pub(super) median: f64,
     pub(super) mad: f64,
+    pub(super) min: f64,
     pub(super) n: usize,
 }
 
@@ -15,11 +19,13 @@ impl Figure {
     pub(super) fn of(values: &[f64]) -> Option<Self> {
         let median = median(values)?;
         let deviations: Vec<f64> = values.iter().map(|value| (value - median).abs()).collect();
-        Some(Self { median, mad: self::median(&deviations)?, n: values.len() })
+        let min = values.iter().copied().fold(f64::INFINITY, f64::min);
+        Some(Self { median, mad: self::median(&deviations)?, min, n: values.len() })
     }
 }
 
-fn median(values: &[f64]) -> Option<f64> {
+/// `None` without measurements.
+pub(super) fn median(values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let upper = sorted.len() / 2;
@@ -41,6 +47,9 @@ mod tests {
     #[test]
     fn median_and_deviation() {
         assert_eq!(Figure::of(&[]), None);
-        assert_eq!(Figure::of(&[3.0, 1.0, 2.0, 100.0]), Some(Figure { median: 2.5, mad: 1.0, n: 4 }));
+        assert_eq!(
+            Figure::of(&[3.0, 1.0, 2.0, 100.0]),
+            Some(Figure { median: 2.5, mad: 1.0, min: 1.0, n: 4 })
+        );
     }
 }

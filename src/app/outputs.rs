@@ -78,13 +78,11 @@ pub(super) fn check_distinct<'a>(
     paths: impl IntoIterator<Item = &'a PathBuf>,
     scene: Option<&Path>,
 ) -> Result<()> {
-    let same =
-        |a: &Path, b: &Path| a == b || a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b));
     let paths: Vec<_> = paths.into_iter().collect();
     for (i, path) in paths.iter().enumerate() {
-        let cause = if scene.is_some_and(|scene| same(path, scene)) {
+        let cause = if scene.is_some_and(|scene| same_file(path, scene)) {
             "this is the scene, and would be overwritten"
-        } else if paths[..i].iter().any(|other| same(path, other)) {
+        } else if paths[..i].iter().any(|other| same_file(path, other)) {
             "named for two outputs"
         } else {
             continue;
@@ -95,6 +93,11 @@ pub(super) fn check_distinct<'a>(
         ));
     }
     Ok(())
+}
+
+/// Whether two paths name one file.
+pub(super) fn same_file(a: &Path, b: &Path) -> bool {
+    a == b || a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
 }
 
 /// The file of frame `index`: `%04d` and the like are replaced.

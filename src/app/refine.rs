@@ -5,7 +5,7 @@ use crate::frame::{Frame, FrameInputs, Timings};
 use crate::gpu::Device;
 use crate::passes::gather::{Gathered, GatheredLights};
 use crate::scene::Scene;
-use crate::shared::GATHER_STRATA;
+use crate::shared::GATHER_FRAMES;
 use crate::virtual_lights::{Proceed, Tracer, VirtualTree};
 use glam::Vec3;
 use std::sync::Arc;
@@ -97,13 +97,13 @@ pub(super) fn refine(
     let mut timings = Timings::default();
     loop {
         timings.add(&Timings::of("trace", || {
-            let round = rounds.round(frame.gathered() / GATHER_STRATA, &|| true);
+            let round = rounds.round(frame.gathered() / GATHER_FRAMES, &|| true);
             round.map_or(Ok(()), |round| {
                 frame.set_gathered_lights(round.upload(device)?);
                 Ok(())
             })
         })?);
-        for _ in 0..GATHER_STRATA {
+        for _ in 0..GATHER_FRAMES {
             timings.add(&frame.gather(inputs)?);
             if goal.time_limit.is_some_and(|limit| start.elapsed().as_secs_f64() >= limit) {
                 return Ok((timings, frame.gathered_error()?));

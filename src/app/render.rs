@@ -67,7 +67,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let [width, height] = settings.size;
     report::print_table(
         &format!("{} ({}), {width}x{height}", info.name, info.driver),
-        &report::passes(&timings),
+        &report::passes(&timings, &timings),
         &timings,
     )?;
     if let Some(path) = &options.report {

@@ -1,6 +1,6 @@
 //! The report and the pass table.
 
-use super::measure::{Figure, peak_host_memory};
+use super::measure::{Figure, MEGABYTE, peak_host_memory};
 use super::terminal::{complain, print};
 use crate::error::Result;
 use crate::frame::{Frame, Timings};
@@ -13,8 +13,6 @@ use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
-
-const MEGABYTE: f64 = 1024.0 * 1024.0;
 
 /// What every file of figures begins with.
 #[derive(Serialize)]
@@ -41,6 +39,8 @@ pub(super) struct Pass {
     gpu_ms: Option<Figure>,
     /// CPU time of the process; subpasses share theirs as they share device time.
     cpu_ms: Option<f64>,
+    /// The same with its spread.
+    cpu: Option<Figure>,
 }
 
 /// What the cluster pass counted.
@@ -134,7 +134,7 @@ impl<'a> Report<'a> {
         frame: &Frame,
         (timings, gathered_error): (&[Timings], Option<f64>),
     ) -> Result<Self> {
-        let passes = passes(timings);
+        let passes = passes(timings, timings);
         let clusters = clusters(frame);
         let [width, height] = scene.render.size;
         Ok(Self {
@@ -164,16 +164,15 @@ impl<'a> Report<'a> {
     }
 }
 
-/// Passes in frame order, over several frames.
-pub(super) fn passes(timings: &[Timings]) -> Vec<Pass> {
-    let names = timings.first().map_or(&[][..], |timings| &timings.passes);
-    (0..names.len())
-        .map(|i| Pass {
-            name: names[i].name,
-            gpu_ms: figure(timings, |t| t.passes[i].gpu_ms),
-            cpu_ms: figure(timings, |t| t.passes[i].cpu_ms).map(|figure| figure.median),
-        })
-        .collect()
+/// Passes in frame order: device time over several frames, CPU time over those that were split by pass.
+pub(super) fn passes(timings: &[Timings], split: &[Timings]) -> Vec<Pass> {
+    let passes = timings.first().map_or(&[][..], |timings| &timings.passes);
+    let pass = |(i, name): (usize, &'static str)| {
+        let cpu = figure(split, |t| t.passes.get(i)?.cpu_ms);
+        let gpu_ms = figure(timings, |t| t.passes.get(i)?.gpu_ms);
+        Pass { name, gpu_ms, cpu_ms: cpu.map(|figure| figure.median), cpu }
+    };
+    passes.iter().map(|pass| pass.name).enumerate().map(pass).collect()
 }
 
 /// A figure over frames.

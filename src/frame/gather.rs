@@ -3,15 +3,16 @@
 use super::timing::Stopwatch;
 use super::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::error::Result;
-use crate::gpu::Use;
+use crate::gpu::{Device, Use};
 use crate::gpu_scene::GpuScene;
 use crate::image::HdrImage;
 use crate::passes::PassInputs;
 use crate::passes::forward::Sample;
 use crate::passes::gather::{Gather, Gathered, GatheredLights};
-use crate::shared::{GATHER_STRATA, GATHER_SUBSETS};
+use crate::shared::{GATHER_FRAMES, GATHER_SUBSETS};
 use crate::targets::Targets;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 const SUBSETS: usize = GATHER_SUBSETS as usize;
 /// Pixels that one task looks at.
@@ -55,7 +56,7 @@ impl Frame {
         self.gathered
     }
 
-    /// Adds a frame of gathered light to the picture, from the lights set last; every `GATHER_STRATA` frames make a round,
+    /// Adds a frame of gathered light to the picture, from the lights set last; every `GATHER_FRAMES` frames make a round,
     /// for which other lights are due. Nothing where there is nothing to gather.
     ///
     /// # Errors
@@ -160,20 +161,20 @@ impl Frame {
     }
 
     /// Estimated relative error of the picture that comes of gathered light: the root of the mean square over pixels of its
-    /// standard error, over the mean of the picture. `None` before two rounds are complete.
+    /// standard error, over the mean of the picture; 0 of a black picture. `None` before two rounds are complete.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn gathered_error(&self) -> Result<Option<f64>> {
-        let rounds = self.gathered / GATHER_STRATA;
+        let rounds = self.gathered / GATHER_FRAMES;
         let Some(sums) = self.sums()?.filter(|_| rounds >= 2) else { return Ok(None) };
         // Frames of each subset, and the subsets that have any.
         let subsets = SUBSETS.min(rounds as usize);
         let frames = |subset: usize| {
-            let whole = u64::from(self.gathered) / u64::from(GATHER_STRATA) / SUBSETS as u64;
-            let rest = u64::from(self.gathered) - whole * u64::from(GATHER_STRATA) * SUBSETS as u64;
-            let own = rest.saturating_sub(subset as u64 * u64::from(GATHER_STRATA)).min(u64::from(GATHER_STRATA));
-            (whole * u64::from(GATHER_STRATA) + own) as f64
+            let whole = u64::from(self.gathered) / u64::from(GATHER_FRAMES) / SUBSETS as u64;
+            let rest = u64::from(self.gathered) - whole * u64::from(GATHER_FRAMES) * SUBSETS as u64;
+            let own = rest.saturating_sub(subset as u64 * u64::from(GATHER_FRAMES)).min(u64::from(GATHER_FRAMES));
+            (whole * u64::from(GATHER_FRAMES) + own) as f64
         };
         let counts: Vec<f64> = (0..subsets).map(frames).collect();
         let all: f64 = counts.iter().sum();
@@ -194,7 +195,8 @@ impl Frame {
         let picture = self.picture_of(Some(&self.mean_light(&sums)))?;
         let total: f64 = picture.pixels.iter().flatten().map(|&value| f64::from(value)).sum();
         let values = (3 * picture.pixels.len()) as f64;
-        Ok((total > 0.0).then(|| (variance / values).sqrt() / (total / values)))
+        let relative = (variance / values).sqrt() / (total / values);
+        Ok(Some(if variance > 0.0 { relative } else { 0.0 }))
     }
 }
 
@@ -211,5 +213,19 @@ pub(super) fn wanted(scene: &GpuScene, settings: &FrameSettings) -> Gathered {
 }
 
 pub(super) fn pass(inputs: &PassInputs<'_>, targets: &Targets, wanted: Gathered) -> Result<Option<Gather>> {
-    wanted.anything().then(|| Gather::new(inputs, targets, wanted)).transpose()
+    let pass = wanted.anything().then(|| Gather::new(inputs, targets, wanted)).transpose()?;
+    if let Some(gather) = &pass {
+        blacken(inputs.device, gather)?;
+    }
+    Ok(pass)
+}
+
+/// Makes the sums black: the present subpass reads them before anything is gathered.
+pub(super) fn blacken(device: &Arc<Device>, gather: &Gather) -> Result<()> {
+    device.run("gathered light", |cmd| {
+        cmd.transition(gather.sums(), Use::Nothing, Use::TransferWrite);
+        cmd.clear(gather.sums());
+        cmd.transition(gather.sums(), Use::TransferWrite, Use::FragmentRead);
+        Ok(())
+    })
 }

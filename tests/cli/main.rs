@@ -6,6 +6,7 @@ mod bad_compare;
 mod bad_outputs;
 mod bad_scenes;
 mod bad_usage;
+mod bench;
 mod compare;
 mod curves;
 mod devices;

@@ -37,7 +37,7 @@ fn write(path: &Path, keys: &[&str]) {
 
 /// The picture of its direct light, without shadows.
 fn direct(path: &Path, size: [u32; 2]) -> Vec<[u8; 3]> {
-    rendered_from(path, size, &["--set", "vpls=0", "--set", "shadows=false"])
+    rendered_from(path, size, &["--set", "indirect.vpls=0", "--set", "shadows=false"])
 }
 
 /// Two keys that lead nowhere, but move the view.
@@ -78,7 +78,7 @@ fn the_picture_at_rest_is_the_rendered_one() {
         let folder = tempfile::tempdir().unwrap();
         let path = scene(folder.path(), keys);
         let truth = folder.path().join("truth.exr");
-        let render = amas(&["render", "--device", "llvmpipe", "--indirect-error", "0.01", "-o"])
+        let render = amas(&["render", "--device", "llvmpipe", "--indirect-error", "0.02", "-o"])
             .args([&truth, &path])
             .output()
             .unwrap();
@@ -94,14 +94,14 @@ fn the_picture_at_rest_is_the_rendered_one() {
         };
         let mut error = capture();
         let start = Instant::now();
-        // Both have noise: the picture 1 %, the window as much as it takes.
-        while error[1] > 0.03 && start.elapsed() < Duration::from_secs(120) {
+        // Both have noise: the picture 2 %, the window as much as it takes.
+        while error[1] > 0.04 && start.elapsed() < Duration::from_secs(120) {
             std::thread::sleep(Duration::from_millis(500));
             error = capture();
         }
         println!("{keys:?}: {error:?} after {:.1} s", start.elapsed().as_secs_f64());
         // A hundredth of the picture's pixels are independent at least.
-        assert!(error[1] <= 0.03 && error[0].abs() < 0.003, "{error:?}");
+        assert!(error[1] <= 0.04 && error[0].abs() < 0.003, "{error:?}");
         open.ends_well();
     }
 }
@@ -184,7 +184,7 @@ fn response() {
     for vpls in ["0", "1048576", "0", "1048576"] {
         let display = Display::of_size(size);
         let mut client = display.connect();
-        let set = format!("vpls={vpls}");
+        let set = format!("indirect.vpls={vpls}");
         let options = ["--size", "640x360", "--set", "samples=1", "--set", &set];
         let view = View::open_plain(&display, &scene, &options);
         let mut window = None;

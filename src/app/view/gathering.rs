@@ -11,7 +11,7 @@ use crate::frame::{Frame, FrameInputs, Timings};
 use crate::gpu::Device;
 use crate::passes::gather::Gathered;
 use crate::scene::{RenderSettings, Scene};
-use crate::shared::GATHER_STRATA;
+use crate::shared::GATHER_FRAMES;
 use std::sync::Arc;
 use winit::event_loop::EventLoopProxy;
 
@@ -20,8 +20,6 @@ const GOAL: f64 = 0.002;
 /// Rounds, beyond those that an estimate was made of, after which the next is made, as a share: it costs as much as some
 /// slices, and the error falls as their root.
 const NEXT_ESTIMATE: f64 = 1.25;
-/// Rounds after which a picture that is black will stay so.
-const ENOUGH_OF_BLACK: u32 = 4;
 
 /// How far the picture's gathered light is.
 #[derive(Default)]
@@ -120,14 +118,14 @@ impl Gathering {
         let what = frame.gathers();
         let frames = frame.gathered();
         let scaled = |(error, rounds): (Option<f64>, u32)| {
-            let frames_then = f64::from(rounds * GATHER_STRATA);
+            let frames_then = f64::from(rounds * GATHER_FRAMES);
             error.map(|error| error * (frames_then / f64::from(frames.max(1))).sqrt())
         };
         what.anything().then(|| Status {
             what,
             state: self.state,
             frames,
-            rounds: frames / GATHER_STRATA,
+            rounds: frames / GATHER_FRAMES,
             error: self.estimate.and_then(scaled),
             virtuals: self.virtuals,
         })
@@ -166,13 +164,12 @@ impl Gathering {
 
     /// Makes ready for a frame: estimates the error where that is due, and has lights for the round.
     fn begin(&mut self, frame: &mut Frame, origin: &Origin<'_>) -> Result<State> {
-        let round = frame.gathered() / GATHER_STRATA;
-        if frame.gathered().is_multiple_of(GATHER_STRATA) && self.round != Some(round) {
+        let round = frame.gathered() / GATHER_FRAMES;
+        if frame.gathered().is_multiple_of(GATHER_FRAMES) && self.round != Some(round) {
             if self.is_due(round) {
                 let error = frame.gathered_error()?;
                 self.estimate = Some((error, round));
-                let black = error.is_none() && round >= ENOUGH_OF_BLACK;
-                if black || error.is_some_and(|error| error <= GOAL) {
+                if error.is_some_and(|error| error <= GOAL) {
                     return Ok(State::Done);
                 }
             }

@@ -1,0 +1,208 @@
+//! What is measured: a frame that is rendered again and again, or all from nothing to the first picture.
+
+use super::super::args::BenchOptions;
+use super::super::default_scene;
+use super::super::report;
+use super::super::{FRAME_RATE, camera, in_scene, load_scene, of_size, warn_of_gathered_light};
+use super::suites::Case;
+use crate::error::Result;
+use crate::frame::{Frame, FrameInputs, FrameSettings, PassTime, Timings};
+use crate::gpu::{Device, Options};
+use crate::gpu_scene::GpuScene;
+use crate::passes::floors::Floors;
+use crate::passes::pairs::PairCount;
+use crate::scene::{Camera, Origin, RenderSettings, Scene};
+use cpu_time::ProcessTime;
+use indicatif::ProgressBar;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Where a point's scene comes from.
+pub(super) enum Source {
+    /// A scene file, or the embedded scene.
+    File(Option<PathBuf>),
+    /// A point of a suite.
+    Suite(Case),
+}
+
+/// A point and what was measured of it.
+pub(super) struct Subject {
+    source: Source,
+    stage: Stage,
+    /// Frames in one piece.
+    pub(super) whole: Vec<Timings>,
+    /// Frames pass by pass: that is what tells each pass's CPU time, but makes it slower.
+    pub(super) split: Vec<Timings>,
+    /// Of the picture after the warm-up; outside the frame.
+    pub(super) pairs: Option<PairCount>,
+    pub(super) floors: Option<Floors>,
+}
+
+/// A frame and all that it needs. Each point has a device of its own, whose peak of memory is the point's.
+pub(super) struct Stage {
+    pub(super) device: Arc<Device>,
+    pub(super) frame: Frame,
+    pub(super) render: RenderSettings,
+    camera: Camera,
+    /// Frames so far: lights that move do so from frame to frame; the camera stands.
+    frames: u32,
+}
+
+impl Source {
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::File(path) => {
+                path.as_ref().map_or_else(|| "default".into(), |path| path.display().to_string())
+            }
+            Self::Suite(case) => case.name.clone(),
+        }
+    }
+
+    fn is_startup(&self) -> bool {
+        matches!(self, Self::Suite(Case { startup: true, .. }))
+    }
+
+    fn load(&self, options: &BenchOptions) -> Result<Scene> {
+        match self {
+            Self::File(path) => load_scene(&options.scene(path.clone())),
+            Self::Suite(case) => {
+                let origin = Origin::Embedded(&case.name, &case.toml, default_scene::FILES);
+                let scene = origin.load(&options.scene(None).overrides(), &ProgressBar::hidden());
+                scene.map_err(|error| of_size(error, options.size))
+            }
+        }
+    }
+}
+
+/// Times one step after the other.
+struct Laps {
+    begin: (Instant, ProcessTime),
+    last: ProcessTime,
+    passes: Vec<PassTime>,
+}
+
+impl Laps {
+    fn start() -> Self {
+        let now = ProcessTime::now();
+        Self { begin: (Instant::now(), now), last: now, passes: Vec::new() }
+    }
+
+    fn lap(&mut self, name: &'static str) {
+        let cpu_ms = Some(1e3 * self.last.elapsed().as_secs_f64());
+        self.last = ProcessTime::now();
+        self.passes.push(PassTime { name, gpu_ms: None, cpu_ms });
+    }
+
+    fn stop(self) -> Timings {
+        let (wall, cpu) = self.begin;
+        Timings {
+            passes: self.passes,
+            wall_ms: 1e3 * wall.elapsed().as_secs_f64(),
+            cpu_ms: 1e3 * cpu.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+impl Stage {
+    fn new(source: &Source, options: &BenchOptions, laps: &mut Laps) -> Result<Self> {
+        let scene = source.load(options)?;
+        let camera = camera(&scene, None)?.clone();
+        laps.lap("scene");
+        let chosen = Options { device: options.device.device.clone(), validate: options.device.validate };
+        let device = Device::open(&chosen)?;
+        laps.lap("device");
+        let uploaded = GpuScene::new(&device, &scene);
+        let gpu_scene = Arc::new(match source {
+            Source::File(path) => in_scene(&options.scene(path.clone()), uploaded)?,
+            Source::Suite(_) => uploaded?,
+        });
+        laps.lap("upload");
+        if matches!(source, Source::File(_)) {
+            warn_of_gathered_light(&scene);
+        }
+        let frame = Frame::new(&device, &gpu_scene, FrameSettings::new(&scene.render, &camera))?;
+        laps.lap("pipelines");
+        Ok(Self { device, frame, render: scene.render, camera, frames: 0 })
+    }
+
+    fn render(&mut self, split: bool) -> Result<Timings> {
+        self.frames += 1;
+        self.frame.render(&FrameInputs {
+            camera: &self.camera,
+            time: f64::from(self.frames) / FRAME_RATE,
+            samples: self.render.samples,
+            exposure: self.render.exposure,
+            split,
+            progress: ProgressBar::hidden(),
+        })
+    }
+}
+
+impl Subject {
+    pub(super) fn new(source: Source, options: &BenchOptions) -> Result<Self> {
+        let stage = Stage::new(&source, options, &mut Laps::start())?;
+        Ok(Self { source, stage, whole: Vec::new(), split: Vec::new(), pairs: None, floors: None })
+    }
+
+    pub(super) fn name(&self) -> String {
+        self.source.name()
+    }
+
+    /// What makes it the same point in another run.
+    pub(super) fn key(&self) -> (String, [u32; 2]) {
+        (self.name(), self.stage.render.size)
+    }
+
+    pub(super) fn stage(&self) -> &Stage {
+        &self.stage
+    }
+
+    /// A repetition that is not measured.
+    pub(super) fn warm_up(&mut self, options: &BenchOptions) -> Result<()> {
+        self.repeat(options, false).map(drop)
+    }
+
+    /// Counts what the picture that was last rendered has.
+    pub(super) fn count(&mut self, options: &BenchOptions) -> Result<()> {
+        if !self.source.is_startup() {
+            // Without warm-up no picture is there yet.
+            self.stage.render(false)?;
+            self.pairs = Some(self.stage.frame.pairs()?);
+            self.floors = if options.floors { self.stage.frame.floors()? } else { None };
+        }
+        Ok(())
+    }
+
+    /// One repetition, and another pass by pass where `split` asks for it.
+    pub(super) fn measure(&mut self, options: &BenchOptions, split: bool) -> Result<()> {
+        let timings = self.repeat(options, false)?;
+        self.whole.push(timings);
+        if split && !self.source.is_startup() {
+            let timings = self.repeat(options, true)?;
+            self.split.push(timings);
+        }
+        Ok(())
+    }
+
+    fn repeat(&mut self, options: &BenchOptions, split: bool) -> Result<Timings> {
+        if !self.source.is_startup() {
+            return self.stage.render(split);
+        }
+        let mut laps = Laps::start();
+        let mut stage = Stage::new(&self.source, options, &mut laps)?;
+        stage.render(false)?;
+        laps.lap("picture");
+        let timings = laps.stop();
+        stage.device.require_silence()?;
+        // The one before it goes, outside the measurement.
+        self.stage = stage;
+        Ok(timings)
+    }
+
+    /// What tells the passes' CPU time: a start's steps are timed in any case.
+    pub(super) fn passes(&self) -> Vec<report::Pass> {
+        let split = if self.source.is_startup() { &self.whole } else { &self.split };
+        report::passes(&self.whole, split)
+    }
+}
