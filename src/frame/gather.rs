@@ -106,7 +106,8 @@ impl Frame {
         let complete = end == gather.rows();
         self.gathered_rows = if complete { 0 } else { end };
         self.gathered += u32::from(complete);
-        let sample = Sample { first: false, shaded: false, points: false, scales: self.scales(inputs, self.samples) };
+        let sample =
+            Sample { first: false, shaded: false, points: false, scales: self.scales(inputs, self.samples) };
         let before = watch.cpu();
         self.device.run("gather", |cmd| {
             if first == 0 {
@@ -149,7 +150,8 @@ impl Frame {
         let per_frame = 1.0 / self.gathered as f32;
         [0..SUBSETS, SUBSETS..2 * SUBSETS].map(|layers| {
             let pixel = |index: usize| {
-                let sum = |channel: usize| layers.clone().map(|layer| sums.of(layer, index)[channel]).sum::<f32>();
+                let sum =
+                    |channel: usize| layers.clone().map(|layer| sums.of(layer, index)[channel]).sum::<f32>();
                 [0, 1, 2].map(|channel| sum(channel) * per_frame)
             };
             self.image((0..sums.pixels).into_par_iter().map(pixel).collect())
@@ -175,7 +177,8 @@ impl Frame {
         let frames = |subset: usize| {
             let whole = u64::from(self.gathered) / u64::from(GATHER_FRAMES) / SUBSETS as u64;
             let rest = u64::from(self.gathered) - whole * u64::from(GATHER_FRAMES) * SUBSETS as u64;
-            let own = rest.saturating_sub(subset as u64 * u64::from(GATHER_FRAMES)).min(u64::from(GATHER_FRAMES));
+            let own =
+                rest.saturating_sub(subset as u64 * u64::from(GATHER_FRAMES)).min(u64::from(GATHER_FRAMES));
             (whole * u64::from(GATHER_FRAMES) + own) as f64
         };
         let counts: Vec<f64> = (0..subsets).map(frames).collect();

@@ -242,7 +242,8 @@ fn screenshots_of_gathered_light() {
     client.tap(O);
     std::thread::sleep(Duration::from_secs(90));
     let bytes = display.corner(size).concat();
-    image::save_buffer(root.join("docs/view/indirect.png"), &bytes, 960, 540, image::ColorType::Rgb8).unwrap();
+    image::save_buffer(root.join("docs/view/indirect.png"), &bytes, 960, 540, image::ColorType::Rgb8)
+        .unwrap();
     client.tap(ESCAPE);
     view.ends_well();
 }

@@ -52,7 +52,9 @@ impl Supply {
         });
         let (theirs, scene, proxy) = (shared.clone(), scene.clone(), proxy.clone());
         // Without its threads the system has none to spare, and the picture stays as it is.
-        if let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(1).thread_name(|_| "lights".into()).build() {
+        if let Ok(pool) =
+            rayon::ThreadPoolBuilder::new().num_threads(1).thread_name(|_| "lights".into()).build()
+        {
             pool.spawn(move || theirs.supply(&Rounds::new(&scene, origin, wanted, 0.0), &proxy));
         }
         Self(shared)

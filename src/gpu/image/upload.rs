@@ -54,7 +54,9 @@ impl Image {
                 let staging = match &mut staging {
                     Some(staging) => staging,
                     // The first level's pieces are the largest.
-                    none => none.insert(Buffer::new(&self.device, "staging", BufferUse::Upload, rows * width)?),
+                    none => {
+                        none.insert(Buffer::new(&self.device, "staging", BufferUse::Upload, rows * width)?)
+                    }
                 };
                 staging.write_from(0, piece)?;
                 let mut region = self.region(mip, (piece.len() / width) as u32, 0);

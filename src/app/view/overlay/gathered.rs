@@ -55,8 +55,14 @@ mod tests {
     #[test]
     fn errors_have_two_digits() {
         let what = Gathered { indirect: true, ..Gathered::default() };
-        let status =
-            Status { what, state: State::Gathering, frames: 40, rounds: 2, error: Some(0.0131), virtuals: None };
+        let status = Status {
+            what,
+            state: State::Gathering,
+            frames: 40,
+            rounds: 2,
+            error: Some(0.0131),
+            virtuals: None,
+        };
         let of = |error| headline(Status { error, ..status });
         assert_eq!(of(Some(0.0131)), "indirect ± 1.3 %");
         assert_eq!(of(Some(0.123)), "indirect ± 12 %");

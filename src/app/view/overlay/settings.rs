@@ -137,7 +137,10 @@ mod tests {
         assert_eq!(change(&before, &exact, true), Change::Scene);
         assert_eq!(of(|render| render.vpls = 64), Change::Scene);
         let indirect = RenderSettings { vpls: 64, ..before.clone() };
-        for after in [RenderSettings { vpls: 128, ..indirect.clone() }, RenderSettings { bounces: 1, ..indirect.clone() }] {
+        for after in [
+            RenderSettings { vpls: 128, ..indirect.clone() },
+            RenderSettings { bounces: 1, ..indirect.clone() },
+        ] {
             assert_eq!(change(&indirect, &after, false), Change::Frame);
         }
         assert_eq!(of(|render| (render.shadows, render.exposure) = (true, 1.0)), Change::Scene);
