@@ -60,6 +60,8 @@ pub struct Frame {
     // Frames of gathered light, and rows of the next one.
     gathered: u32,
     gathered_rows: u32,
+    // Samples have point lights whose light is gathered.
+    previews: bool,
     slices: u32,
     // Of the sample last rendered.
     last: FrameConstants,
@@ -103,6 +105,7 @@ impl Frame {
             samples: 0,
             gathered: 0,
             gathered_rows: 0,
+            previews: false,
             slices: 0,
             last: FrameConstants::default(),
             draws: Vec::new(),
@@ -206,7 +209,7 @@ impl Frame {
             self.forget_gathered();
         }
         let scales = self.scales(inputs, index + 1);
-        let sample = Sample { first: index == 0, shaded: true, scales };
+        let sample = Sample { first: index == 0, shaded: true, points: self.has_points(), scales };
         self.submit(sample, inputs.split, watch)?;
         watch.add_gpu(self.timestamps.intervals()?);
         self.samples = index + 1;
@@ -226,9 +229,7 @@ impl Frame {
 
     /// From now on evaluates every light without a range: some pixel's cut asked for more steps than a draw may have.
     fn give_up_cuts(&mut self) -> Result<()> {
-        let work = Work { cut: false, unranged: true, ..self.work };
-        *self = Self::of(&self.device.clone(), &self.scene.clone(), self.settings, work)?;
-        Ok(())
+        self.renew(self.settings, Work { cut: false, unranged: true, ..self.work })
     }
 
     /// Makes room, and the passes that fold lists where this frame is the first to need them.
@@ -305,7 +306,9 @@ impl Frame {
         } else {
             cmd.transition(hdr, Use::TransferRead, Use::ComputeWrite);
         }
-        resolve.record(cmd, &self.view());
+        if sample.points {
+            resolve.record(cmd, &self.view());
+        }
         cmd.timestamp(&self.timestamps, 3);
     }
 
@@ -390,7 +393,7 @@ fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
     let drawn = !scene.draws.is_empty();
     let gathered = gather::wanted(scene, settings);
     let first_unranged = if settings.brute_force { 0 } else { lights.ranged };
-    let shaded = drawn && !gathered.points;
+    let shaded = drawn && (settings.preview || !gathered.points);
     let lists = shaded && first_unranged > 0;
     let compute = match settings.front_end {
         FrontEnd::Auto => device.is_cpu(),

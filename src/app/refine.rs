@@ -3,11 +3,11 @@
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, Timings};
 use crate::gpu::Device;
-use crate::gpu_scene::GpuScene;
-use crate::passes::gather::GatheredLights;
+use crate::passes::gather::{Gathered, GatheredLights};
 use crate::scene::Scene;
 use crate::shared::GATHER_FRAMES;
-use crate::virtual_lights::{Tracer, VirtualTree};
+use crate::virtual_lights::{Proceed, Tracer, VirtualTree};
+use glam::Vec3;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -27,27 +27,61 @@ pub(super) struct Rounds<'a> {
     points: VirtualTree,
 }
 
+/// The lights of a round, and the trees over them.
+pub(super) struct Round<'a> {
+    points: &'a VirtualTree,
+    emitters: VirtualTree,
+    virtuals: VirtualTree,
+    spacing: f32,
+}
+
 impl<'a> Rounds<'a> {
-    /// Of a scene at a time in seconds, for what a frame gathers.
-    pub(super) fn new(scene: &'a Scene, gpu_scene: &GpuScene, frame: &Frame, time: f64) -> Self {
-        let wanted = frame.gathers();
+    /// Of a scene at a time in seconds, for what a frame gathers; lights will be relative to `origin`.
+    pub(super) fn new(scene: &'a Scene, origin: Vec3, wanted: Gathered, time: f64) -> Self {
         let lights = if wanted.anything() { scene.point_lights_at(time) } else { Vec::new() };
         Self {
             scene,
-            tracer: wanted.indirect.then(|| Tracer::new(scene, gpu_scene.origin)),
-            points: VirtualTree::of_points(&lights, gpu_scene.origin),
+            tracer: wanted.indirect.then(|| Tracer::new(scene, origin)),
+            points: VirtualTree::of_points(&lights, origin),
         }
     }
 
-    /// The lights of a round.
-    pub(super) fn lights(&self, device: &Arc<Device>, round: u32) -> Result<GatheredLights> {
-        let none = VirtualTree::default();
+    /// Whether each round has lights of its own.
+    pub(super) fn differ(&self) -> bool {
+        self.tracer.is_some()
+    }
+
+    /// A round; `None` where `proceed` says so.
+    pub(super) fn round(&self, number: u32, proceed: Proceed<'_>) -> Option<Round<'_>> {
+        let points = &self.points;
         let Some(tracer) = &self.tracer else {
-            return GatheredLights::new(device, [&self.points, &none, &none], 1.0);
+            return Some(Round {
+                points,
+                emitters: VirtualTree::default(),
+                virtuals: VirtualTree::default(),
+                spacing: 1.0,
+            });
         };
-        let set = tracer.trace(self.scene.render.vpls as usize, u64::from(round));
-        let [emitters, virtuals] = [VirtualTree::new(&set.emitters), VirtualTree::new(&set.bounced)];
-        GatheredLights::new(device, [&self.points, &emitters, &virtuals], set.spacing)
+        let set = tracer.trace_while(self.scene.render.vpls as usize, u64::from(number), proceed)?;
+        let emitters = VirtualTree::new(&set.emitters);
+        proceed().then(|| Round {
+            points,
+            emitters,
+            virtuals: VirtualTree::new(&set.bounced),
+            spacing: set.spacing,
+        })
+    }
+}
+
+impl Round<'_> {
+    /// Lights that stand for reflected light.
+    pub(super) fn virtual_lights(&self) -> usize {
+        self.virtuals.lights.len()
+    }
+
+    /// On the device.
+    pub(super) fn upload(&self, device: &Arc<Device>) -> Result<GatheredLights> {
+        GatheredLights::new(device, [self.points, &self.emitters, &self.virtuals], self.spacing)
     }
 }
 
@@ -63,9 +97,11 @@ pub(super) fn refine(
     let mut timings = Timings::default();
     loop {
         timings.add(&Timings::of("trace", || {
-            let lights = rounds.lights(device, frame.gathered() / GATHER_FRAMES)?;
-            frame.set_gathered_lights(lights);
-            Ok(())
+            let round = rounds.round(frame.gathered() / GATHER_FRAMES, &|| true);
+            round.map_or(Ok(()), |round| {
+                frame.set_gathered_lights(round.upload(device)?);
+                Ok(())
+            })
         })?);
         for _ in 0..GATHER_FRAMES {
             timings.add(&frame.gather(inputs)?);

@@ -50,7 +50,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         };
         let mut taken = frame.render(&inputs)?;
         if frame.gathers().anything() {
-            let rounds = Rounds::new(&scene, &gpu_scene, &frame, time);
+            let rounds = Rounds::new(&scene, gpu_scene.origin, frame.gathers(), time);
             let goal = Goal { error: options.refine.indirect_error, time_limit: options.refine.time_limit };
             let (refining, left) = refine(&mut frame, &rounds, &device, &inputs, goal)?;
             taken.add(&refining);

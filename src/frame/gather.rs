@@ -1,5 +1,6 @@
 //! Gathered light of the frame: indirect light, and that of point lights whose shadows are wanted.
 
+use super::timing::Stopwatch;
 use super::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::error::Result;
 use crate::gpu::{Device, Use};
@@ -10,10 +11,24 @@ use crate::passes::forward::Sample;
 use crate::passes::gather::{Gather, Gathered, GatheredLights};
 use crate::shared::{GATHER_FRAMES, GATHER_SUBSETS};
 use crate::targets::Targets;
+use rayon::prelude::*;
 use std::sync::Arc;
-use super::timing::Stopwatch;
 
 const SUBSETS: usize = GATHER_SUBSETS as usize;
+/// Pixels that one task looks at.
+const PART: usize = 4096;
+
+/// Sums of gathered light, as fetched.
+struct Sums {
+    texels: Vec<[f32; 4]>,
+    pixels: usize,
+}
+
+impl Sums {
+    fn of(&self, layer: usize, pixel: usize) -> [f32; 4] {
+        self.texels[layer * self.pixels + pixel]
+    }
+}
 
 impl Frame {
     /// What is gathered, frame by frame, once the picture has its samples.
@@ -56,6 +71,23 @@ impl Frame {
         self.gather.as_ref().map_or(0, Gather::rows)
     }
 
+    /// Of the next frame of gathered light: rows of blocks that are done.
+    #[must_use]
+    pub fn rows_gathered(&self) -> u32 {
+        self.gathered_rows
+    }
+
+    /// Whether samples from now on have the point lights whose light is gathered, but without shadows: for a picture that is
+    /// to be seen at once. Only where [`FrameSettings::preview`] is set.
+    pub fn preview(&mut self, preview: bool) {
+        self.previews = preview;
+    }
+
+    /// Whether samples have point lights.
+    pub(super) fn has_points(&self) -> bool {
+        self.previews || !self.work.gathered.points
+    }
+
     /// As [`Frame::gather`], the next so many rows of the frame; with the last of them the frame counts.
     ///
     /// # Errors
@@ -74,12 +106,15 @@ impl Frame {
         let complete = end == gather.rows();
         self.gathered_rows = if complete { 0 } else { end };
         self.gathered += u32::from(complete);
-        let sample = Sample { first: false, shaded: false, scales: self.scales(inputs, self.samples) };
+        let sample =
+            Sample { first: false, shaded: false, points: false, scales: self.scales(inputs, self.samples) };
         let before = watch.cpu();
         self.device.run("gather", |cmd| {
             if first == 0 {
                 self.prepass.record(cmd, &self.view());
                 gather.begin(cmd, &self.view(), index);
+                // The pass over the surfaces stores the depth that it has only tested.
+                cmd.memory_barrier(Use::DepthWrite, Use::ComputeRead);
             }
             gather.record(cmd, &self.view(), lights, index, first..end);
             if complete {
@@ -108,24 +143,25 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn gathered_light(&self) -> Result<Option<[HdrImage; 2]>> {
-        let Some(sums) = self.sums()? else { return Ok(None) };
-        let per_frame = 1.0 / self.gathered as f32;
-        let mean = |layers: std::ops::Range<usize>| {
-            let pixel = |index: usize| {
-                let sum = |channel: usize| layers.clone().map(|layer| sums[layer][index][channel]).sum::<f32>();
-                [0, 1, 2].map(|channel| sum(channel) * per_frame)
-            };
-            self.image((0..sums[0].len()).map(pixel).collect())
-        };
-        Ok(Some([mean(0..SUBSETS), mean(SUBSETS..2 * SUBSETS)]))
+        Ok(self.sums()?.map(|sums| self.mean_light(&sums)))
     }
 
-    /// The sums, layer by layer.
-    fn sums(&self) -> Result<Option<Vec<Vec<[f32; 4]>>>> {
+    fn mean_light(&self, sums: &Sums) -> [HdrImage; 2] {
+        let per_frame = 1.0 / self.gathered as f32;
+        [0..SUBSETS, SUBSETS..2 * SUBSETS].map(|layers| {
+            let pixel = |index: usize| {
+                let sum =
+                    |channel: usize| layers.clone().map(|layer| sums.of(layer, index)[channel]).sum::<f32>();
+                [0, 1, 2].map(|channel| sum(channel) * per_frame)
+            };
+            self.image((0..sums.pixels).into_par_iter().map(pixel).collect())
+        })
+    }
+
+    fn sums(&self) -> Result<Option<Sums>> {
         let Some(gather) = self.gather.as_ref().filter(|_| self.gathered > 0) else { return Ok(None) };
         let texels: Vec<[f32; 4]> = gather.sums().fetch(Use::FragmentRead, Use::FragmentRead)?;
-        let pixels = texels.len() / (2 * SUBSETS);
-        Ok(Some(texels.chunks(pixels).map(<[_]>::to_vec).collect()))
+        Ok(Some(Sums { pixels: texels.len() / (2 * SUBSETS), texels }))
     }
 
     /// Estimated relative error of the picture that comes of gathered light: the root of the mean square over pixels of its
@@ -141,23 +177,27 @@ impl Frame {
         let frames = |subset: usize| {
             let whole = u64::from(self.gathered) / u64::from(GATHER_FRAMES) / SUBSETS as u64;
             let rest = u64::from(self.gathered) - whole * u64::from(GATHER_FRAMES) * SUBSETS as u64;
-            let own = rest.saturating_sub(subset as u64 * u64::from(GATHER_FRAMES)).min(u64::from(GATHER_FRAMES));
+            let own =
+                rest.saturating_sub(subset as u64 * u64::from(GATHER_FRAMES)).min(u64::from(GATHER_FRAMES));
             (whole * u64::from(GATHER_FRAMES) + own) as f64
         };
         let counts: Vec<f64> = (0..subsets).map(frames).collect();
         let all: f64 = counts.iter().sum();
-        let mut variance = 0.0;
-        for pixel in 0..sums[0].len() {
-            for channel in 0..3 {
-                let sum = |subset: usize| {
-                    f64::from(sums[subset][pixel][channel]) + f64::from(sums[SUBSETS + subset][pixel][channel])
-                };
-                let mean = (0..subsets).map(sum).sum::<f64>() / all;
-                let spread = |subset: usize| counts[subset] * (sum(subset) / counts[subset] - mean).powi(2);
-                variance += (0..subsets).map(spread).sum::<f64>() / ((subsets - 1) as f64 * all);
-            }
-        }
-        let picture = self.hdr()?;
+        let variance = |pixel: usize, channel: usize| {
+            let layer = |layer: usize| f64::from(sums.of(layer, pixel)[channel]);
+            let sum = |subset: usize| layer(subset) + layer(SUBSETS + subset);
+            let mean = (0..subsets).map(sum).sum::<f64>() / all;
+            let spread = |subset: usize| counts[subset] * (sum(subset) / counts[subset] - mean).powi(2);
+            (0..subsets).map(spread).sum::<f64>() / ((subsets - 1) as f64 * all)
+        };
+        // Parts of a fixed size, so that the sum is the same on any number of threads.
+        let part = |first: usize| -> f64 {
+            let pixels = first..sums.pixels.min(first + PART);
+            pixels.map(|pixel| (0..3).map(|channel| variance(pixel, channel)).sum::<f64>()).sum()
+        };
+        let firsts: Vec<usize> = (0..sums.pixels).step_by(PART).collect();
+        let variance: f64 = firsts.into_par_iter().map(part).collect::<Vec<_>>().iter().sum();
+        let picture = self.picture_of(Some(&self.mean_light(&sums)))?;
         let total: f64 = picture.pixels.iter().flatten().map(|&value| f64::from(value)).sum();
         let values = (3 * picture.pixels.len()) as f64;
         let relative = (variance / values).sqrt() / (total / values);

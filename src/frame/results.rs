@@ -19,12 +19,17 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn hdr(&self) -> Result<HdrImage> {
+        self.picture_of(self.gathered_light()?.as_ref())
+    }
+
+    /// The picture with that of gathered light.
+    pub(super) fn picture_of(&self, gathered: Option<&[HdrImage; 2]>) -> Result<HdrImage> {
         let texels: Vec<[f32; 4]> = self.targets.hdr.fetch(Use::TransferRead, Use::TransferRead)?;
         let samples = self.samples.max(1) as f32;
         let shaded =
             self.image(texels.iter().map(|&[r, g, b, _]| [r / samples, g / samples, b / samples]).collect());
-        let Some([indirect, points]) = self.gathered_light()? else { return Ok(shaded) };
-        let mut picture = shaded.plus(&indirect).plus(&points);
+        let Some([indirect, points]) = gathered else { return Ok(shaded) };
+        let mut picture = shaded.plus(indirect).plus(points);
         // See glsl/present/gathered.frag.
         picture.pixels.iter_mut().flatten().for_each(|value| *value = value.max(0.0));
         Ok(picture)
@@ -111,7 +116,7 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn light_error(&self) -> Result<f64> {
-        if !self.work.cut && !self.work.folded {
+        if !self.has_points() || !self.work.cut && !self.work.folded {
             return Ok(0.0);
         }
         Ok(self.fold_error()? + self.cut_error()?)

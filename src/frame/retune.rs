@@ -36,7 +36,17 @@ impl Frame {
     /// # Errors
     /// As [`Frame::new`].
     pub fn remake(&mut self, settings: FrameSettings) -> Result<()> {
-        *self = Self::new(&self.device.clone(), &self.scene.clone(), settings)?;
+        self.renew(settings, work(&self.device, &self.scene, &settings))
+    }
+
+    /// Makes everything anew but the lights to gather from, which are those of the scene.
+    pub(super) fn renew(&mut self, settings: FrameSettings, work: Work) -> Result<()> {
+        let made = Self::of(&self.device.clone(), &self.scene.clone(), settings, work)?;
+        let before = std::mem::replace(self, made);
+        self.previews = before.previews;
+        if let Some(lights) = before.gathered_lights {
+            self.set_gathered_lights(lights);
+        }
         Ok(())
     }
 }

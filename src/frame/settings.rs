@@ -30,6 +30,8 @@ pub struct FrameSettings {
     pub bounces: u32,
     /// Every light casts shadows.
     pub shadows: bool,
+    /// Point lights whose light is gathered can be seen without shadows, until it is.
+    pub preview: bool,
     /// Every light on every pixel, without clusters: what the clustered picture is measured against.
     pub brute_force: bool,
     /// Invocations of small workgroups: 8, 16 or 32; `None`: what suits the device. No picture depends on it.
@@ -52,6 +54,7 @@ impl FrameSettings {
             indirect: render.vpls > 0,
             bounces: render.bounces,
             shadows: render.shadows,
+            preview: false,
             brute_force: false,
             lanes: None,
         }

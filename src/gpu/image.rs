@@ -1,5 +1,7 @@
 //! Images with one view each.
 
+mod upload;
+
 use super::device::Device;
 use super::{Buffer, BufferUse, Called, Commands, Use, too_large};
 use crate::error::Result;
@@ -157,40 +159,6 @@ impl Image {
             image_extent: vk::Extent3D { width: (self.size[0] >> mip).max(1), height: rows, depth: 1 },
             ..vk::BufferImageCopy::default()
         }
-    }
-
-    /// Uploads all mip levels, each level's texels row by row, and leaves the image in use `after`.
-    ///
-    /// # Errors
-    /// [`crate::Error::Vulkan`] from the driver.
-    pub fn upload<T: Pod>(&self, levels: &[&[T]], after: Use) -> Result<()> {
-        let texels = levels.iter().map(|level| level.len()).sum();
-        let mut staging = Buffer::<T>::new(&self.device, "staging", BufferUse::Upload, texels)?;
-        let mut first = 0;
-        for level in levels {
-            staging.write_from(first, level)?;
-            first += level.len();
-        }
-        self.device.run("upload image", |cmd| {
-            cmd.transition(self, Use::Nothing, Use::TransferWrite);
-            let mut offset = 0;
-            for (mip, level) in (0_u32..).zip(levels) {
-                let region = self.region(mip, (self.size[1] >> mip).max(1), offset);
-                offset += size_of_val(*level) as u64;
-                // SAFETY: the staging buffer holds the level's texels from `offset` on.
-                unsafe {
-                    self.device.raw.cmd_copy_buffer_to_image(
-                        cmd.raw,
-                        staging.raw,
-                        self.raw,
-                        vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-                        &[region],
-                    );
-                };
-            }
-            cmd.transition(self, Use::TransferWrite, after);
-            Ok(())
-        })
     }
 
     /// Copies the top mip level of all layers to the host, from use `before`, and back to use `after`.

@@ -75,8 +75,8 @@ impl Direct {
         })
     }
 
-    /// Draws background, luminaires, area lights and unranged lights.
-    pub fn record(&self, cmd: &mut Commands, view: &View<'_>) {
+    /// Draws background, luminaires and area lights, and unranged lights where `points` are wanted.
+    pub fn record(&self, cmd: &mut Commands, view: &View<'_>, points: bool) {
         let count = view.scene.lights.lights.len() as u32;
         if let Some(background) = &self.background {
             cmd.bind_graphics(background);
@@ -86,7 +86,7 @@ impl Direct {
         if let Some(luminaires) = &self.luminaires {
             luminaires.draw(cmd, view);
         }
-        if let Some(cut) = &self.cut {
+        if let Some(cut) = self.cut.as_ref().filter(|_| points) {
             cut.draw(cmd, view, [0; 2]);
         }
         let mut draw = |pipelines: &SurfacePipelines, lights: Range<u32>, most: u32| {
@@ -97,7 +97,7 @@ impl Direct {
         if let Some(area) = &self.area {
             draw(area, 0..self.work.area, view.scene.area.per_draw);
         }
-        if let Some(unranged) = &self.unranged {
+        if let Some(unranged) = self.unranged.as_ref().filter(|_| points) {
             draw(unranged, self.work.first_unranged..count, LIGHTS_PER_DRAW);
         }
     }

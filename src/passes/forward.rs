@@ -131,12 +131,12 @@ impl Forward {
         };
         cmd.begin_pass(if sample.first { &self.first } else { &self.further }, &self.framebuffer);
         if sample.shaded {
-            cmd.labelled("direct", |cmd| self.direct.record(cmd, view));
+            cmd.labelled("direct", |cmd| self.direct.record(cmd, view, sample.points));
         }
         done(cmd);
         if let Some(indirect) = &self.indirect {
             cmd.next_subpass();
-            if sample.shaded {
+            if sample.shaded && sample.points {
                 cmd.labelled("indirect", |cmd| indirect.record(cmd, view));
             }
             done(cmd);
@@ -155,6 +155,8 @@ pub struct Sample {
     pub first: bool,
     /// Whether it adds light, or the picture is only presented again.
     pub shaded: bool,
+    /// Whether that light is also of point lights; otherwise it is gathered.
+    pub points: bool,
     /// Factors on the sum of samples and on that of gathered light: exposure over the number of either so far.
     pub scales: [f32; 2],
 }

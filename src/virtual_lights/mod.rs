@@ -11,7 +11,7 @@ mod trace;
 mod tree;
 
 pub use lambert::lambert;
-pub use trace::Tracer;
+pub use trace::{Proceed, Tracer};
 pub use tree::VirtualTree;
 
 use glam::{DVec3, Vec3};

@@ -36,6 +36,9 @@ const SAFETY: f64 = 4.0;
 const MOST_EMITTERS: usize = 4096;
 /// Paths that one task traces.
 const CHUNK: usize = 512;
+/// Whether to go on with a long job; a job may be paused by keeping it waiting for the answer.
+pub type Proceed<'a> = &'a (dyn Fn() -> bool + Sync);
+
 /// No triangle.
 const NOWHERE: (usize, usize) = (usize::MAX, usize::MAX);
 
@@ -80,10 +83,17 @@ impl<'a> Tracer<'a> {
     /// is what all Lambertian shares of the surfaces do, of up to `bounces` bounces.
     #[must_use]
     pub fn trace(&self, count: usize, seed: u64) -> LightSet {
+        self.trace_while(count, seed, &|| true).unwrap_or_default()
+    }
+
+    /// As [`Tracer::trace`]; asks between tasks of a millisecond or two whether to go on, which may take its time to
+    /// answer. `None` where the answer was no.
+    #[must_use]
+    pub fn trace_while(&self, count: usize, seed: u64, proceed: Proceed<'_>) -> Option<LightSet> {
         let paths = self.paths(count);
-        let bounced = self.bounced(paths, hash(&[seed, 0])).concat();
+        let bounced = self.bounced(paths, hash(&[seed, 0]), proceed)?.concat();
         let emitters = self.emitters((count / 4).min(MOST_EMITTERS), hash(&[seed, 1]));
-        LightSet { spacing: spacing(&bounced), emitters, bounced, paths }
+        proceed().then(|| LightSet { spacing: spacing(&bounced), emitters, bounced, paths })
     }
 
     fn explore(&self) -> Yield {
@@ -111,13 +121,14 @@ impl<'a> Tracer<'a> {
     }
 
     /// The lights of so many paths, in their order.
-    fn bounced(&self, paths: usize, seed: u64) -> Vec<Vec<VirtualLight>> {
+    fn bounced(&self, paths: usize, seed: u64, proceed: Proceed<'_>) -> Option<Vec<Vec<VirtualLight>>> {
         let chunk = |first: usize| {
             let mut out = Vec::with_capacity(4 * CHUNK);
             (first..paths.min(first + CHUNK)).for_each(|path| self.path(path, paths, seed, &mut out));
             out
         };
-        (0..paths.div_ceil(CHUNK)).into_par_iter().map(|index| chunk(index * CHUNK)).collect()
+        let chunks = (0..paths.div_ceil(CHUNK)).into_par_iter();
+        chunks.map(|index| proceed().then(|| chunk(index * CHUNK))).collect()
     }
 
     /// Points on area lights, each in proportion to its power.

@@ -7,6 +7,7 @@
 mod cameras;
 mod display;
 mod exchange;
+mod gathered;
 mod loading;
 mod overlay;
 mod robust;

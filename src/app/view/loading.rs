@@ -116,7 +116,7 @@ impl Loading {
         let (options, progress, proxy) = (self.options.clone(), self.progress.clone(), self.proxy.clone());
         self.uploads = true;
         self.worker.run(move || {
-            let picture = build(&device, scene, &camera, shape, &progress);
+            let picture = build(&device, scene, &camera, (shape, &proxy), &progress);
             let picture = in_scene(&options, picture).map(Box::new);
             // Not later than the window's thread, which is told below.
             drop(device);
@@ -129,7 +129,7 @@ fn build(
     device: &Arc<Device>,
     scene: Scene,
     camera: &Camera,
-    shape: Shape,
+    window: (Shape, &EventLoopProxy<Event>),
     progress: &ProgressBar,
 ) -> Result<Picture> {
     let going_on = || {
@@ -141,7 +141,7 @@ fn build(
     };
     let gpu = GpuScene::new(device, &scene)?;
     going_on()?;
-    let picture = Picture::new(device, gpu, scene, camera, shape)?;
+    let picture = Picture::new(device, gpu, scene, camera, window)?;
     device.keep_pipelines();
     going_on()?;
     Ok(picture)

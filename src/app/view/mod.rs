@@ -1,15 +1,17 @@
 //! `amas view`: the same frame in a window.
 //!
 //! The window's thread handles input and renders a sample of the picture at a time, when there is something new to see:
-//! one through the pixels' centres while the view moves, the scene's samples, one after the other, once it rests. Files
-//! are read, scenes uploaded and pipelines compiled on other threads, whose results arrive as [`Event`]s.
+//! one through the pixels' centres while the view moves, the scene's samples, one after the other, once it rests. Then, when
+//! nothing else is to be done, it gathers light, in slices that input need not wait for. Lights are traced, files are read, scenes uploaded and pipelines compiled on other threads, whose results arrive as [`Event`]s.
 
 mod capture;
 mod display;
 mod fly;
+mod gathering;
 mod input;
 mod loading;
 mod overlay;
+mod pace;
 mod picture;
 mod pilot;
 mod scenes;
@@ -17,6 +19,7 @@ mod shaders;
 mod signals;
 mod stage;
 mod startup;
+mod supply;
 mod waiting;
 mod watch;
 mod worker;
@@ -24,12 +27,14 @@ mod worker;
 use super::args::{SceneOptions, ViewOptions};
 use super::report;
 use crate::error::Result;
+use crate::frame::Timings;
 use crate::gpu::Replaced;
 use capture::Captures;
+use gathering::Done;
 use input::Pointer;
 use loading::{Aim, Loading, Progress};
-use overlay::{Change, Gui};
-use picture::{Picture, Shape};
+use overlay::{Change, Fresh, Gui};
+use picture::{Occasion, Picture, Shape};
 use pilot::Pilot;
 use stage::Stage;
 use startup::Startup;
@@ -50,6 +55,8 @@ const LOOK: Duration = Duration::from_millis(50);
 enum Event {
     /// A signal asks to close.
     Quit,
+    /// Lights to gather from are ready.
+    Lights,
     /// A job of that ticket has come to something.
     Loaded(u64, Progress),
     /// A file that the scene was read from has changed.
@@ -91,6 +98,8 @@ fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
         pointer: Pointer::default(),
         gui: Gui::default(),
         hidden: false,
+        moves: false,
+        gathered: None,
         warned: false,
         start: Instant::now(),
         remaining: options.frames,
@@ -131,6 +140,10 @@ struct Viewer<'a> {
     gui: Gui,
     /// Nothing of the window is on screen.
     hidden: bool,
+    /// The view moved when it was last drawn.
+    moves: bool,
+    /// A frame of gathered light that is not drawn yet.
+    gathered: Option<Timings>,
     warned: bool,
     start: Instant,
     /// Pictures to show before closing; `None`: until the user closes.
@@ -168,8 +181,22 @@ impl Viewer<'_> {
         if self.remaining.is_some() && picture.is_complete() {
             picture.restart();
         }
-        let timings = picture.step(pilot.camera(), (now - self.start).as_secs_f64(), moves)?;
-        let (image, change) = self.gui.draw(stage, picture, pilot.camera(), timings)?;
+        self.moves = moves;
+        let gathers = !moves && self.remaining.is_none();
+        let occasion = Occasion { time: (now - self.start).as_secs_f64(), moves, gathers };
+        let fresh = match (picture.step(pilot.camera(), occasion)?, self.gathered.take()) {
+            (Some(timings), _) => Fresh::Sample(timings),
+            (None, Some(timings)) => Fresh::Gathered(timings),
+            (None, None) => Fresh::Nothing,
+        };
+        if picture.is_dark() {
+            // What the window shows has more light.
+            if !picture.is_complete() {
+                stage.window.request_redraw();
+            }
+            return Ok(());
+        }
+        let (image, change) = self.gui.draw(stage, picture, pilot.camera(), fresh)?;
         let shown = stage.show(&image)?;
         picture.change(change, pilot.camera())?;
         if shown && let Some(remaining) = &mut self.remaining {
@@ -188,6 +215,30 @@ impl Viewer<'_> {
             stage.window.request_redraw();
         }
         Ok(())
+    }
+
+    /// Gathers light for some milliseconds, where the view rests and there is any to gather; whether there may be more to do.
+    fn gather(&mut self) -> Result<bool> {
+        let (Some(picture), Some(pilot)) = (&mut self.picture, &self.pilot) else {
+            return Ok(false);
+        };
+        if self.moves || self.hidden || self.closing || self.remaining.is_some() {
+            return Ok(false);
+        }
+        let more = match picture.gather(pilot.camera())? {
+            Done::Nothing => false,
+            Done::Part => true,
+            Done::State => {
+                self.redraw();
+                true
+            }
+            Done::Frame(timings) => {
+                self.gathered = Some(timings);
+                self.redraw();
+                true
+            }
+        };
+        Ok(more)
     }
 
     /// Makes the frame anew with shaders that have changed; where that fails, the old one stays.
@@ -269,6 +320,8 @@ impl ApplicationHandler<Event> for Viewer<'_> {
                 self.closing = true;
                 Ok(())
             }
+            // What waits for them goes on before the loop sleeps again.
+            Event::Lights => Ok(()),
             Event::Loaded(ticket, progress) => self.progress(ticket, progress),
             Event::Shaders(shaders) => {
                 self.reload_shaders(shaders);
@@ -315,6 +368,16 @@ impl ApplicationHandler<Event> for Viewer<'_> {
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        if self.outcome.is_err() || event_loop.exiting() {
+            return;
+        }
+        let gathered = self.gather();
+        let more = matches!(gathered, Ok(true));
+        self.settle(event_loop, gathered.map(|_| ()));
+        if more {
+            event_loop.set_control_flow(ControlFlow::Poll);
+            return;
+        }
         self.entitle();
         let look = self.loading.as_ref().map(|_| Instant::now() + LOOK);
         let next = look.into_iter().chain(self.gui.due()).min();

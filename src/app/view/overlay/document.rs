@@ -9,7 +9,7 @@ use crate::scene::{AreaShape, Material, Model, Parameter, PointLight, RenderSett
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
-use toml_edit::{Array, DocumentMut, Item as Entry, TableLike, Value};
+use toml_edit::{Array, DocumentMut, InlineTable, Item as Entry, TableLike, Value};
 
 /// A parameter that a model has: its key, how many numbers, and their upper end.
 pub(super) struct Row {
@@ -159,6 +159,13 @@ fn set_render(table: &mut dyn TableLike, old: &RenderSettings, now: &RenderSetti
     }
     if old.shadows != now.shadows {
         set(table, "shadows", now.shadows);
+    }
+    if (old.vpls, old.bounces) != (now.vpls, now.bounces) {
+        let indirect = table.entry("indirect").or_insert(Entry::Value(InlineTable::new().into()));
+        if let Some(indirect) = indirect.as_table_like_mut() {
+            set(indirect, "vpls", i64::from(now.vpls));
+            set(indirect, "bounces", i64::from(now.bounces));
+        }
     }
 }
 
@@ -315,6 +322,7 @@ radiance = [4, 4, 4]
         let before: BTreeMap<_, _> = picks.map(|picked| (picked, picked.of(&scene).unwrap())).into();
         scene.render.exposure = -0.7;
         scene.render.shadows = true;
+        (scene.render.vpls, scene.render.bounces) = (4096, 2);
         scene.materials[0].parameters[Parameter::Color as usize].constant[1] = 0.1;
         scene.materials[1].parameters[Parameter::Color as usize].constant = [0.1, 0.2, 0.3];
         scene.materials[1].two_sided = false;

@@ -12,7 +12,8 @@ const PLOT: f32 = 72.0;
 const BAR: f32 = 14.0;
 
 /// Every pass that a frame may have, in frame order; their colours stay the same whatever the scene uses.
-const PASSES: [&str; 7] = ["lights", "prepass", "cluster", "resolve", "direct", "indirect", "present"];
+const PASSES: [&str; 8] =
+    ["lights", "prepass", "cluster", "resolve", "direct", "indirect", "present", "gather"];
 
 /// What the last samples cost.
 #[derive(Default)]
@@ -134,7 +135,7 @@ mod tests {
         let mut history = History::default();
         history.add(&Timings { passes, wall_ms: 40.0, cpu_ms: 70.0 });
         let Cost { passes, wall } = &history.0[0];
-        assert_eq!((*wall, *passes), (40.0, [0.0, 4.0, 0.0, 0.0, 0.0, 9.0, 1.0]));
+        assert_eq!((*wall, *passes), (40.0, [0.0, 4.0, 0.0, 0.0, 0.0, 9.0, 1.0, 0.0]));
         for _ in 0..2 * SAMPLES {
             history.add(&Timings { passes: vec![], wall_ms: 1.0, cpu_ms: 1.0 });
         }

@@ -10,6 +10,7 @@ use egui::{DragValue, Grid, Slider, TextEdit, Ui};
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// What is picked, what was changed, and where to save it.
 #[derive(Default)]
@@ -33,7 +34,7 @@ impl Inspector {
     }
 
     /// The picked part and its values.
-    pub(super) fn show(&mut self, ui: &mut Ui, scene: &mut Scene) -> Change {
+    pub(super) fn show(&mut self, ui: &mut Ui, scene: &mut Arc<Scene>) -> Change {
         let Some((picked, mut item)) = self.picked.and_then(|picked| Some((picked, picked.of(scene)?)))
         else {
             ui.weak("I picks what is under the pointer.");
@@ -47,7 +48,7 @@ impl Inspector {
         };
         if change > Change::Nothing {
             self.before.entry(picked).or_insert(before);
-            put(scene, picked, item);
+            put(Arc::make_mut(scene), picked, item);
         }
         match change {
             Change::Edit(Edit::Material(_)) => Change::Edit(Edit::Material(match picked {

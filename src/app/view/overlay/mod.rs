@@ -6,6 +6,7 @@
 mod compare;
 mod counts;
 mod document;
+mod gathered;
 mod history;
 mod inspect;
 mod keys;
@@ -18,6 +19,7 @@ mod views;
 
 pub(super) use settings::Change;
 
+use super::gathering::Status;
 use super::picture::Picture;
 use super::stage::Stage;
 use crate::error::Result;
@@ -42,8 +44,8 @@ use winit::event::{ElementState, WindowEvent};
 use winit::keyboard::KeyCode;
 use winit::window::Window;
 
-/// Colours of the passes in frame order: those of Okabe and Ito, which all eyes tell apart.
-const PASS_COLORS: [Color32; 7] = [
+/// Colours of the passes in frame order: those of Okabe and Ito, which all eyes tell apart, with light grey for their black.
+const PASS_COLORS: [Color32; 8] = [
     Color32::from_rgb(240, 228, 66),
     Color32::from_rgb(86, 180, 233),
     Color32::from_rgb(0, 158, 115),
@@ -51,6 +53,7 @@ const PASS_COLORS: [Color32; 7] = [
     Color32::from_rgb(230, 159, 0),
     Color32::from_rgb(204, 121, 167),
     Color32::from_rgb(0, 114, 178),
+    Color32::from_rgb(220, 220, 220),
 ];
 
 /// Time between two looks at the reference.
@@ -85,6 +88,13 @@ pub(super) struct Gui {
     refused: Option<String>,
     /// When egui wants to be drawn again though nothing happened.
     due: Option<Instant>,
+}
+
+/// What is new in a picture, with what it took.
+pub(super) enum Fresh {
+    Nothing,
+    Sample(Timings),
+    Gathered(Timings),
 }
 
 /// What an overlay is drawn with.
@@ -198,20 +208,22 @@ impl Gui {
         self.due.filter(|_| self.is_shown())
     }
 
-    /// The picture with what is shown over it, and what the user changed there; `timings` are those of a sample that is new.
+    /// The picture with what is shown over it, and what the user changed there.
     pub(super) fn draw(
         &mut self,
         stage: &Stage,
         picture: &mut Picture,
         camera: &Camera,
-        timings: Option<Timings>,
+        fresh: Fresh,
     ) -> Result<(Arc<Image>, Change)> {
-        let rests = timings.is_none() && picture.is_complete();
-        if let Some(timings) = timings {
-            self.history.add(&timings);
+        let rests = !matches!(fresh, Fresh::Sample(_)) && picture.is_complete();
+        if let Fresh::Sample(timings) | Fresh::Gathered(timings) = &fresh {
+            self.history.add(timings);
+            self.compare.refresh();
+        }
+        if let Fresh::Sample(_) = fresh {
             self.figures = None;
             self.views.outdate();
-            self.compare.refresh();
         }
         if !self.is_shown() {
             return Ok((picture.image().clone(), Change::Nothing));
@@ -236,9 +248,10 @@ impl Gui {
         };
         let mut change = Change::Nothing;
         let size = picture.frame.settings().size;
+        let status = picture.status();
         let output = tools.run(&stage.window, |context| {
             if self.panels {
-                change = change.max(self.panels(context, &mut picture.scene));
+                change = change.max(self.panels(context, &mut picture.scene, status));
                 self.mark(context, &picture.scene, camera, size);
             }
             if self.keys {
@@ -290,18 +303,20 @@ impl Gui {
         }
     }
 
-    fn panels(&mut self, context: &Context, scene: &mut Scene) -> Change {
+    fn panels(&mut self, context: &Context, scene: &mut Arc<Scene>, status: Option<Status>) -> Change {
         let mut change = Change::Nothing;
         let window = egui::Window::new("amas").default_pos([8.0, 8.0]).default_width(WIDTH);
         window.default_height(context.content_rect().height() - 64.0).show(context, |ui| {
             ScrollArea::vertical().show(ui, |ui| {
                 section(ui, "Time", |ui| self.history.show(ui));
                 section(ui, "View", |ui| self.choose(ui));
+                if let Some(status) = status {
+                    section(ui, "Gathered light", |ui| gathered::show(ui, status));
+                }
                 if let Some(figures) = &self.figures {
                     section(ui, "Counts", |ui| figures.show(ui));
                 }
-                let areas = !scene.area_lights.is_empty();
-                section(ui, "Settings", |ui| change = settings::show(ui, &mut scene.render, areas));
+                section(ui, "Settings", |ui| change = settings::show(ui, scene));
                 section(ui, "Picked", |ui| change = change.max(self.inspector.show(ui, scene)));
                 section(ui, "Shaders", |ui| {
                     ui.weak(if self.watched { WATCHED } else { NOT_WATCHED });

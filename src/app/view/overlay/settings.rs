@@ -1,9 +1,10 @@
 //! The settings of the picture, `[render]` of the scene.
 
 use crate::gpu_scene::Edit;
-use crate::scene::RenderSettings;
 use crate::scene::settings::Tonemap;
+use crate::scene::{RenderSettings, Scene};
 use egui::{DragValue, Slider, Ui};
+use std::sync::Arc;
 
 /// What a change asks for: each holds the ones before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,9 +20,24 @@ pub(in crate::app::view) enum Change {
     Scene,
 }
 
-/// Of a scene with area lights or without.
-pub(super) fn show(ui: &mut Ui, render: &mut RenderSettings, areas: bool) -> Change {
-    let before = render.clone();
+/// As many as a scene file may ask for.
+const MOST_VPLS: u32 = 1 << 20;
+/// Virtual lights of a scene that had none before.
+const VPLS: u32 = 1 << 16;
+
+/// The settings of a scene.
+pub(super) fn show(ui: &mut Ui, scene: &mut Arc<Scene>) -> Change {
+    // Others hold the scene, too: it is copied where something changes, and only there.
+    let mut render = scene.render.clone();
+    rows(ui, &mut render);
+    let change = change(&scene.render, &render, !scene.area_lights.is_empty());
+    if change > Change::Nothing {
+        Arc::make_mut(scene).render = render;
+    }
+    change
+}
+
+fn rows(ui: &mut Ui, render: &mut RenderSettings) {
     egui::Grid::new("settings").num_columns(2).show(ui, |ui| {
         let mut row = |name: &str, hint: &str, add: &mut dyn FnMut(&mut Ui)| {
             ui.label(name).on_hover_text(hint);
@@ -49,11 +65,37 @@ pub(super) fn show(ui: &mut Ui, render: &mut RenderSettings, areas: bool) -> Cha
         row("lights a cluster", "longest list; the rest is folded", &mut |ui| {
             ui.add(DragValue::new(&mut render.max_lights_per_cluster).range(128..=2048));
         });
-        row("shadows", "of area lights", &mut |ui| {
+        row("shadows", "of every light", &mut |ui| {
             ui.checkbox(&mut render.shadows, "");
         });
+        row("indirect light", "while the view rests", &mut |ui| {
+            switch(ui, &mut render.vpls);
+        });
+        if render.vpls == 0 {
+            return;
+        }
+        row("vpls", "virtual lights of a round", &mut |ui| {
+            let most = 1..=MOST_VPLS;
+            ui.add(Slider::new(&mut render.vpls, most).logarithmic(true).update_while_editing(false));
+        });
+        row("bounces", "of indirect light", &mut |ui| {
+            ui.add(DragValue::new(&mut render.bounces).range(0..=64).update_while_editing(false));
+        });
     });
-    change(&before, render, areas)
+}
+
+/// Whether there are virtual lights; off and on again, as many as before.
+fn switch(ui: &mut Ui, vpls: &mut u32) {
+    let before = egui::Id::unique("vpls before");
+    let mut on = *vpls > 0;
+    if ui.checkbox(&mut on, "").changed() {
+        let had = std::mem::take(vpls);
+        if on {
+            *vpls = ui.data(|data| data.get_temp(before)).unwrap_or(VPLS);
+        } else {
+            ui.data_mut(|data| data.insert_temp(before, had));
+        }
+    }
 }
 
 /// What lies between two settings. Which lobes may take closed forms of area lights, `light_error` decides when the scene is
@@ -62,7 +104,10 @@ fn change(before: &RenderSettings, after: &RenderSettings, areas: bool) -> Chang
     let picture = RenderSettings { exposure: after.exposure, samples: after.samples, ..before.clone() };
     if before == after {
         Change::Nothing
-    } else if before.shadows != after.shadows || areas && before.light_error != after.light_error {
+    } else if before.shadows != after.shadows
+        || (before.vpls > 0) != (after.vpls > 0)
+        || areas && before.light_error != after.light_error
+    {
         Change::Scene
     } else if picture == *after {
         Change::Picture
@@ -90,6 +135,14 @@ mod tests {
         assert_eq!(of(|render| render.light_error = 0.5), Change::Frame);
         let exact = RenderSettings { light_error: 0.0, ..before.clone() };
         assert_eq!(change(&before, &exact, true), Change::Scene);
+        assert_eq!(of(|render| render.vpls = 64), Change::Scene);
+        let indirect = RenderSettings { vpls: 64, ..before.clone() };
+        for after in [
+            RenderSettings { vpls: 128, ..indirect.clone() },
+            RenderSettings { bounces: 1, ..indirect.clone() },
+        ] {
+            assert_eq!(change(&indirect, &after, false), Change::Frame);
+        }
         assert_eq!(of(|render| (render.shadows, render.exposure) = (true, 1.0)), Change::Scene);
     }
 }

@@ -43,7 +43,7 @@ impl Truth {
         Self::of(State { image, rows: 1, of: 1, version: 1, failed }, None)
     }
 
-    /// Begins to compute a picture: the scene's samples, shadows where it asks for them.
+    /// Begins to compute a picture: the scene's samples, shadows and indirect light where it asks for them.
     pub(super) fn compute(scene: &Scene, camera: &Camera, size: [u32; 2]) -> Self {
         let [width, height] = size;
         let image = HdrImage { width, height, pixels: vec![[0.0; 3]; width as usize * height as usize] };
@@ -106,8 +106,15 @@ fn work(
     state: &Mutex<State>,
     cancelled: &AtomicBool,
 ) -> Result<()> {
-    let integrator = if scene.render.shadows { Integrator::Shadowed } else { Integrator::Direct };
-    let oracle = Oracle::new(scene, camera, &Options { size, integrator, ..Options::of_scene(scene) })?;
+    let integrator = match &scene.render {
+        render if render.vpls > 0 => Integrator::Path,
+        render if render.shadows => Integrator::Shadowed,
+        _ => Integrator::Direct,
+    };
+    // No more bounces than the picture has.
+    let bounces = scene.render.bounces;
+    let options = Options { size, integrator, bounces, ..Options::of_scene(scene) };
+    let oracle = Oracle::new(scene, camera, &options)?;
     // Half the processors: the window needs some, and on a software device the picture does.
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get().div_ceil(2));
     let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else {
