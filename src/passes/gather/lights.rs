@@ -43,7 +43,10 @@ impl GatheredLights {
         )?;
         image.upload(&[&texels], Use::Texture)?;
         let bound = bound(spacing);
-        Ok(Self { image, constants: GatherConstants { points, emitters, virtuals, bound, ..GatherConstants::default() } })
+        Ok(Self {
+            image,
+            constants: GatherConstants { points, emitters, virtuals, bound, ..GatherConstants::default() },
+        })
     }
 }
 
