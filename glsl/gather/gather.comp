@@ -21,10 +21,10 @@
 #include "gather/visible.glsl"
 
 layout(local_size_x = GATHER_SIDE, local_size_y = GATHER_SIDE) in;
-layout(constant_id = 54) const bool SHADOWS = true;
-layout(constant_id = 55) const bool POINTS = true;
-layout(constant_id = 56) const bool INDIRECT = true;
-layout(constant_id = 57) const bool LAMBERT = false;
+layout(constant_id = 54) const bool GATHER_SHADOWS = true;
+layout(constant_id = 55) const bool GATHER_POINTS = true;
+layout(constant_id = 56) const bool GATHER_INDIRECT = true;
+layout(constant_id = 57) const bool GATHER_LAMBERT = false;
 layout(push_constant, std430) uniform PushBlock { GatherConstants gather; };
 layout(set = SET_gather, binding = GATHER_SUMS, rgba32f) uniform image2DArray sums;
 
@@ -32,7 +32,9 @@ layout(set = SET_gather, binding = GATHER_SUMS, rgba32f) uniform image2DArray su
 const vec3 MOST_RADIANCE = vec3(1e30);
 // Bounces before a path may be ended by chance, and the least that are then left of it.
 const uint SAFE_BOUNCES = 2u;
-// No bound: lights of the scene are drawn alone.
+// Radii of half a tile within which its pixels draw the scene's own lights for themselves.
+const float NEAR_TILES = 2.0;
+// No bound, and no distance.
 const float UNBOUNDED = 1e30;
 
 uint random_state;
@@ -53,7 +55,7 @@ float arriving(float d2, float facing, uint extra, uint most_bounces, bool with_
     return falloff(d2, inverse_range2, inverse_range2 > 0.0 ? 1e-4 : 1e-12);
 }
 
-// What a light adds to a vertex, over the probability that it was chosen.
+// What a light adds to a vertex, times `over`. The shadow ray leaves from beside the vertex, and so in another direction.
 vec3 from_light(Vertex v, VirtualLight light, float over, float bound, uint most_bounces, bool with_normals) {
     vec3 to_light = light.position - v.position;
     float d2 = dot(to_light, to_light);
@@ -66,21 +68,25 @@ vec3 from_light(Vertex v, VirtualLight light, float over, float bound, uint most
     bool lit = wi.z > 0.0 && dot(direction, v.geometric) > 0.0;
     vec3 sum = lit ? reflected * light.color * factor : vec3(0.0);
     bool dark = sum == vec3(0.0);
-    if (SHADOWS && !dark) dark = occluded(v.origin, direction, 0.0, sqrt(d2) * (1.0 - 1e-4));
+    vec3 way = light.position - v.origin;
+    float reach = length(way);
+    if (GATHER_SHADOWS && !dark) dark = occluded(v.origin, way / max(reach, TINY), 0.0, reach * (1.0 - 1e-6));
     return dark ? vec3(0.0) : sum;
 }
 
-// One light of a tree.
-vec3 drawn(Vertex v, uvec2 tree, float bound, uint most_bounces, bool with_normals) {
+// One light of a tree, of those nearer than `within`.
+vec3 drawn(Vertex v, uvec2 tree, float within, float bound, uint most_bounces, bool with_normals) {
     Lit lit = Lit(v.position, vec3(0.0), v.world_from_local[2], 1.0, bound);
     Drawn choice = draw_light(tree, lit, random(), random_state, with_normals);
     float over = choice.probability > 0.0 ? 1.0 / choice.probability : 0.0;
-    return from_light(v, gathered_light(tree, choice.light), over, bound, most_bounces, with_normals);
+    VirtualLight light = gathered_light(tree, choice.light);
+    over = distance(light.position, v.position) < within ? over : 0.0;
+    return from_light(v, light, over, bound, most_bounces, with_normals);
 }
 
-// One of the lights drawn for half a tile, chosen by about what it adds unless it is hidden (Talbot et al. 2005, Importance
+// One of the lights drawn for half a tile, of those not nearer than `beyond`, chosen by about what it adds unless it is hidden (Talbot et al. 2005, Importance
 // Resampling for Global Illumination).
-vec3 chosen(Vertex v, uint first, uvec2 tree, float bound, uint most_bounces, bool with_normals) {
+vec3 chosen(Vertex v, uint first, uvec2 tree, float beyond, float bound, uint most_bounces, bool with_normals) {
     float u = random();
     float sum = 0.0;
     float target = 1.0;
@@ -91,7 +97,7 @@ vec3 chosen(Vertex v, uint first, uvec2 tree, float bound, uint most_bounces, bo
         float d2 = dot(to_light, to_light);
         vec3 direction = to_light * inversesqrt(max(d2, TINY));
         float cosine = dot(direction, v.world_from_local[2]);
-        bool lit = cosine > 0.0 && dot(direction, v.geometric) > 0.0;
+        bool lit = cosine > 0.0 && dot(direction, v.geometric) > 0.0 && d2 >= sqr(beyond);
         float facing = with_normals ? -dot(direction, c.normal) : 1.0;
         float geometry = lit ? cosine * arriving(d2, facing, c.extra, most_bounces, with_normals) : 0.0;
         float about = c.power * min(geometry, bound);
@@ -111,16 +117,16 @@ vec3 chosen(Vertex v, uint first, uvec2 tree, float bound, uint most_bounces, bo
 // Light of the scene's own lights.
 vec3 own_lights(Vertex v) {
     vec3 sum = vec3(0.0);
-    if (gather.points.y > 0u) sum += drawn(v, gather.points, UNBOUNDED, 0u, ALL_AROUND);
-    if (gather.emitters.y > 0u) sum += drawn(v, gather.emitters, UNBOUNDED, 0u, WITH_NORMALS);
+    if (gather.points.y > 0u) sum += drawn(v, gather.points, UNBOUNDED, UNBOUNDED, 0u, ALL_AROUND);
+    if (gather.emitters.y > 0u) sum += drawn(v, gather.emitters, UNBOUNDED, UNBOUNDED, 0u, WITH_NORMALS);
     return sum;
 }
 
 // Bounces are those that are left.
 vec3 virtual_lights(Vertex v, bool seen, uint bounces) {
     if (gather.virtuals.y == 0u || bounces == 0u) return vec3(0.0);
-    if (seen) return chosen(v, first_light, gather.virtuals, gather.bound, bounces, WITH_NORMALS);
-    return drawn(v, gather.virtuals, gather.bound, bounces, WITH_NORMALS);
+    if (seen) return chosen(v, first_light, gather.virtuals, 0.0, gather.bound, bounces, WITH_NORMALS);
+    return drawn(v, gather.virtuals, UNBOUNDED, gather.bound, bounces, WITH_NORMALS);
 }
 
 // Along a sampled direction: light of the background, or the next vertex with what the path has to find there.
@@ -140,7 +146,7 @@ Step step_from(Vertex v, vec3 throughput, inout vec3 radiance) {
     Step next = Step(v, throughput, false);
     if (throughput == vec3(0.0)) return next;
     // Gathering takes over whatever is farther.
-    float reach = LAMBERT ? inversesqrt(gather.bound) : 1e30;
+    float reach = GATHER_LAMBERT ? inversesqrt(gather.bound) : 1e30;
     Hit hit = nearest_hit(v.origin, direction, reach);
     if (hit.triangle == NO_HIT) {
         radiance += throughput * frame.background;
@@ -194,11 +200,11 @@ void draw_for_tile(uint tile_seed) {
     bool own = index >= all;
     random_state = hash(tile_seed + index);
     float u = (float(index % GATHER_DRAWN) + random()) * (1.0 / float(GATHER_DRAWN));
-    if (INDIRECT && !own) {
+    if (GATHER_INDIRECT && !own) {
         Lit lit = half_lit(of_half, gather.bound);
         tile_lights[index] = candidate(gather.virtuals, lit, u, random_state, WITH_NORMALS);
     }
-    if (POINTS && own) {
+    if (GATHER_POINTS && own) {
         Lit lit = half_lit(of_half, UNBOUNDED);
         tile_lights[index] = candidate(gather.points, lit, u, random_state, ALL_AROUND);
     }
@@ -206,21 +212,28 @@ void draw_for_tile(uint tile_seed) {
 }
 
 void main() {
-    uvec2 pixel = gl_GlobalInvocationID.xy + uvec2(0u, gather.row);
+    // Tiles lie elsewhere in each frame: pixels share lights with other neighbours.
+    uint frame_seed = hash(gather.seed * GATHER_FRAMES + gather.frame);
+    uvec2 shift = uvec2(frame_seed, frame_seed >> 8) % GATHER_SIDE;
+    uvec2 pixel = gl_GlobalInvocationID.xy + uvec2(0u, gather.row) - shift;
+    // Those left of the picture and above it wrap around to large numbers.
     bool inside = pixel.x < frame.size.x && pixel.y < frame.size.y;
-    ivec2 at = ivec2(min(pixel, frame.size - 1u));
+    ivec2 at = inside ? ivec2(pixel) : ivec2(0);
     SeenPlace place = place_at(at);
     Cut cut = halve_tile(inside && place.exists, place.position, place.normal);
-    uint frame_seed = hash(gather.seed * GATHER_FRAMES + gather.frame);
     draw_for_tile(hash(frame_seed ^ (gl_WorkGroupID.x + ((gl_WorkGroupID.y + gather.row / GATHER_SIDE) << 16))));
     if (!inside || !place.exists) return;
     Vertex seen = visible_at(at);
     random_state = hash(hash(pixel.x + (pixel.y << 16)) ^ frame_seed);
-    first_light = half_of(cut, place.position) * GATHER_DRAWN;
-    if (POINTS) {
+    uint of_half = half_of(cut, place.position);
+    first_light = of_half * GATHER_DRAWN;
+    if (GATHER_POINTS) {
         uint first = first_light + HALVES * GATHER_DRAWN;
-        vec3 own = chosen(seen, first, gather.points, UNBOUNDED, 0u, ALL_AROUND);
+        // What is near for its size a tile hardly draws, and some of its pixels need: these draw for themselves.
+        float near = NEAR_TILES * length(half_lit(of_half, UNBOUNDED).extent);
+        vec3 own = chosen(seen, first, gather.points, near, UNBOUNDED, 0u, ALL_AROUND);
+        own += drawn(seen, gather.points, near, UNBOUNDED, 0u, ALL_AROUND);
         add(at, GATHER_SUBSETS + gather.subset, own);
     }
-    if (INDIRECT) add(at, gather.subset, indirect(seen));
+    if (GATHER_INDIRECT) add(at, gather.subset, indirect(seen));
 }

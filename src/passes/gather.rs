@@ -122,10 +122,15 @@ impl Gather {
         }
     }
 
+    /// Workgroups across and down: one more than cover the picture, because they begin left of it and above.
+    fn groups(&self) -> [u32; 2] {
+        self.sums.size().map(|side| side.div_ceil(GATHER_SIDE) + 1)
+    }
+
     /// Rows of workgroups of a frame.
     #[must_use]
     pub fn rows(&self) -> u32 {
-        self.sums.size()[1].div_ceil(GATHER_SIDE)
+        self.groups()[1]
     }
 
     /// Adds light to some of these rows: that of frame `index` of all rounds.
@@ -149,7 +154,7 @@ impl Gather {
                 row: rows.start * GATHER_SIDE,
                 ..lights.constants
             });
-            cmd.dispatch([self.sums.size()[0].div_ceil(GATHER_SIDE), rows.len() as u32, 1]);
+            cmd.dispatch([self.groups()[0], rows.len() as u32, 1]);
             cmd.transition(&self.sums, Use::ComputeWrite, Use::FragmentRead);
         });
     }
