@@ -27,7 +27,7 @@ fn descriptors_are_those_of_the_tables() {
             used.insert((table, slot));
         }
     }
-    let tables = ["frame", "scene", "material", "resolve", "pairs", "overlay", "probe"].into_iter();
+    let tables = ["frame", "scene", "material", "resolve", "pairs", "gather", "overlay", "probe"].into_iter();
     let all: BTreeSet<_> = tables
         .flat_map(|name| bindings_of(name).iter().map(move |binding| (name, binding.binding)))
         .collect();
@@ -41,13 +41,14 @@ fn bindings_of(table: &str) -> &'static [Binding] {
         "material" => shared::material::BINDINGS,
         "resolve" => shared::resolve::BINDINGS,
         "pairs" => shared::pairs::BINDINGS,
+        "gather" => shared::gather::BINDINGS,
         "overlay" => shared::overlay::BINDINGS,
         _ => shared::probe::BINDINGS,
     }
 }
 
-/// The probes and the window's overlay have sets of their own, in the place of the frame's; the resolve and the accounting, in that of a
-/// material's.
+/// The probes and the window's overlay have sets of their own, in the place of the frame's; the resolve, the
+/// accounting and the gathering, in that of a material's.
 fn table(shader: &str, set: u32) -> Option<(&'static str, &'static [Binding])> {
     let name = match set {
         shared::overlay::SET if shader.starts_with("overlay/") => "overlay",
@@ -56,6 +57,7 @@ fn table(shader: &str, set: u32) -> Option<(&'static str, &'static [Binding])> {
         shared::scene::SET => "scene",
         shared::resolve::SET if shader.starts_with("resolve/") => "resolve",
         shared::pairs::SET if ["cluster/pairs.comp", "cluster/floors.comp"].contains(&shader) => "pairs",
+        shared::gather::SET if shader == "gather/gather.comp" => "gather",
         shared::material::SET => "material",
         _ => return None,
     };

@@ -55,6 +55,7 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             name if name.starts_with("resolve/many_") => Some([1, 1, 1]),
             // One workgroup per tile: one invocation per pixel.
             "cluster/pairs.comp" | "cluster/floors.comp" | "cluster/given_up.comp" => Some([tile, tile, 1]),
+            "gather/gather.comp" => Some([sized("GATHER_SIDE"), sized("GATHER_SIDE"), 1]),
             "cluster/bands.comp" => Some([sized("BANDS"), 1, 1]),
             "cluster/fold.comp" => Some([sized("FOLD_LANES"), 1, 1]),
             "cluster/count.comp" => Some([linear / sized("SIBLINGS"), 1, 1]),
