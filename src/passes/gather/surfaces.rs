@@ -82,6 +82,8 @@ fn render_pass(inputs: &PassInputs<'_>) -> Result<RenderPass> {
             Outside::Before(Use::ComputeRead, Use::ColorWrite),
             Outside::Before(Use::DepthRead, Use::DepthTest),
             Outside::After(Use::ColorWrite, Use::ComputeRead),
+            // Depth that is only read is stored again when the pass ends, and that counts as a write.
+            Outside::After(Use::DepthWrite, Use::DepthRead),
         ],
     )
 }
