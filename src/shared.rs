@@ -334,8 +334,8 @@ shared! {
         GATHER_SIDE = 8;
         /// Pixels of a workgroup.
         GATHER_PIXELS = 64;
-        /// Lights that a workgroup draws from a tree, for all its pixels to choose from; half the pixels.
-        GATHER_DRAWN = 32;
+        /// Lights that are drawn from a tree for each half of a workgroup's pixels to choose from; a quarter of all pixels.
+        GATHER_DRAWN = 16;
         /// Frames of a round, which have the same virtual lights.
         GATHER_FRAMES = 16;
         /// Independent sums of rounds, from which the error is told.

@@ -36,6 +36,8 @@ const uint SAFE_BOUNCES = 2u;
 const float UNBOUNDED = 1e30;
 
 uint random_state;
+// Of the virtual lights that the pixel chooses from.
+uint first_light;
 
 float random() {
     random_state = hash(random_state);
@@ -76,7 +78,7 @@ vec3 drawn(Vertex v, uvec2 tree, float bound, uint most_bounces, bool with_norma
     return from_light(v, gathered_light(tree, choice.light), over, bound, most_bounces, with_normals);
 }
 
-// One of the lights drawn for the tile, chosen by about what it adds unless it is hidden (Talbot et al. 2005, Importance
+// One of the lights drawn for half a tile, chosen by about what it adds unless it is hidden (Talbot et al. 2005, Importance
 // Resampling for Global Illumination).
 vec3 chosen(Vertex v, uint first, uvec2 tree, float bound, uint most_bounces, bool with_normals) {
     float u = random();
@@ -117,7 +119,7 @@ vec3 own_lights(Vertex v) {
 // Bounces are those that are left.
 vec3 virtual_lights(Vertex v, bool seen, uint bounces) {
     if (gather.virtuals.y == 0u || bounces == 0u) return vec3(0.0);
-    if (seen) return chosen(v, 0u, gather.virtuals, gather.bound, bounces, WITH_NORMALS);
+    if (seen) return chosen(v, first_light, gather.virtuals, gather.bound, bounces, WITH_NORMALS);
     return drawn(v, gather.virtuals, gather.bound, bounces, WITH_NORMALS);
 }
 
@@ -184,14 +186,22 @@ void add(ivec2 pixel, uint layer, vec3 radiance) {
     imageStore(sums, texel, imageLoad(sums, texel) + vec4(radiance, 0.0));
 }
 
-// Lights for the tile's pixels: virtual lights first, then the scene's own.
+// Lights for the tile's pixels: virtual lights for each half, then the scene's own.
 void draw_for_tile(uint tile_seed) {
+    const uint all = HALVES * GATHER_DRAWN;
     uint index = gl_LocalInvocationIndex;
-    bool own = index >= GATHER_DRAWN;
+    uint of_half = index % all / GATHER_DRAWN;
+    bool own = index >= all;
     random_state = hash(tile_seed + index);
     float u = (float(index % GATHER_DRAWN) + random()) * (1.0 / float(GATHER_DRAWN));
-    if (INDIRECT && !own) tile_lights[index] = candidate(gather.virtuals, tile_lit(gather.bound), u, random_state, WITH_NORMALS);
-    if (POINTS && own) tile_lights[index] = candidate(gather.points, tile_lit(UNBOUNDED), u, random_state, ALL_AROUND);
+    if (INDIRECT && !own) {
+        Lit lit = half_lit(of_half, gather.bound);
+        tile_lights[index] = candidate(gather.virtuals, lit, u, random_state, WITH_NORMALS);
+    }
+    if (POINTS && own) {
+        Lit lit = half_lit(of_half, UNBOUNDED);
+        tile_lights[index] = candidate(gather.points, lit, u, random_state, ALL_AROUND);
+    }
     barrier();
 }
 
@@ -200,14 +210,16 @@ void main() {
     bool inside = pixel.x < frame.size.x && pixel.y < frame.size.y;
     ivec2 at = ivec2(min(pixel, frame.size - 1u));
     SeenPlace place = place_at(at);
-    note_pixel(inside && place.exists, place.position, place.normal);
+    Cut cut = halve_tile(inside && place.exists, place.position, place.normal);
     uint frame_seed = hash(gather.seed * GATHER_FRAMES + gather.frame);
     draw_for_tile(hash(frame_seed ^ (gl_WorkGroupID.x + ((gl_WorkGroupID.y + gather.row / GATHER_SIDE) << 16))));
     if (!inside || !place.exists) return;
     Vertex seen = visible_at(at);
     random_state = hash(hash(pixel.x + (pixel.y << 16)) ^ frame_seed);
+    first_light = half_of(cut, place.position) * GATHER_DRAWN;
     if (POINTS) {
-        vec3 own = chosen(seen, GATHER_DRAWN, gather.points, UNBOUNDED, 0u, ALL_AROUND);
+        uint first = first_light + HALVES * GATHER_DRAWN;
+        vec3 own = chosen(seen, first, gather.points, UNBOUNDED, 0u, ALL_AROUND);
         add(at, GATHER_SUBSETS + gather.subset, own);
     }
     if (INDIRECT) add(at, gather.subset, indirect(seen));

@@ -153,7 +153,10 @@ impl<'a> Report<'a> {
                 wall_ms: figure(timings, |t| Some(t.wall_ms)),
                 cpu_ms: figure(timings, |t| Some(t.cpu_ms)),
             },
-            error_estimate: ErrorEstimate { light_relative: frame.light_error()?, indirect_relative: gathered_error.unwrap_or(0.0) },
+            error_estimate: ErrorEstimate {
+                light_relative: frame.light_error()?,
+                indirect_relative: gathered_error.unwrap_or(0.0),
+            },
             clusters,
             validation_messages: device.validation_messages().map(|messages| messages.len()),
             peak_memory: PeakMemory {

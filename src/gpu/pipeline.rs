@@ -178,7 +178,8 @@ impl GraphicsPipeline {
             .rasterization_samples(vk::SampleCountFlags::TYPE_1);
         let depth = depth_state(description.depth);
         let colors = description.pass.colors[description.subpass as usize];
-        let attachments: Vec<_> = description.blend.map(blend_state).into_iter().cycle().take(colors).collect();
+        let attachments: Vec<_> =
+            description.blend.map(blend_state).into_iter().cycle().take(colors).collect();
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic = vk::PipelineDynamicStateCreateInfo::default()
             .dynamic_states(&[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR]);

@@ -3,8 +3,8 @@
 //! Reads depth and light lists; adds radiance to the HDR image and writes the display-referred picture.
 
 use super::direct::Direct;
-use super::indirect::Indirect;
 use super::gather::Gathered;
+use super::indirect::Indirect;
 use super::present::{Looks, Present};
 use super::{PassInputs, View};
 use crate::error::Result;

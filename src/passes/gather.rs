@@ -17,7 +17,7 @@ use crate::gpu::{
     Commands, ComputePipeline, DescriptorSets, Device, Image, ImageDescription, PipelineLayout,
     Specialization, Use, shaders,
 };
-use crate::shared::{self, GATHER_SIDE, GATHER_FRAMES, GATHER_SUBSETS, GatherConstants};
+use crate::shared::{self, GATHER_FRAMES, GATHER_SIDE, GATHER_SUBSETS, GatherConstants};
 use crate::targets::{HDR_FORMAT, Targets};
 use std::ops::Range;
 use std::sync::Arc;
@@ -129,7 +129,14 @@ impl Gather {
     }
 
     /// Adds light to some of these rows: that of frame `index` of all rounds.
-    pub fn record(&self, cmd: &mut Commands, view: &View<'_>, lights: &GatheredLights, index: u32, rows: Range<u32>) {
+    pub fn record(
+        &self,
+        cmd: &mut Commands,
+        view: &View<'_>,
+        lights: &GatheredLights,
+        index: u32,
+        rows: Range<u32>,
+    ) {
         let round = index / GATHER_FRAMES;
         cmd.labelled("gather", |cmd| {
             cmd.transition(&self.sums, Use::FragmentRead, Use::ComputeWrite);

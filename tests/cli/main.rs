@@ -12,6 +12,7 @@ mod curves;
 mod devices;
 mod fit;
 mod help;
+mod indirect;
 mod pictures;
 mod report;
 

@@ -3,5 +3,6 @@
 
 pub(crate) mod albedo;
 pub(crate) mod gpu;
+pub(crate) mod png;
 pub(crate) mod square;
 pub(crate) mod tables;

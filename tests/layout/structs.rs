@@ -8,8 +8,7 @@ use crate::modules;
 use crate::spirv::{Module, decoration};
 
 /// Structs that shaders take from textures.
-const IN_TEXELS: [&str; 11] = [
-const IN_TEXELS: [&str; 9] = [
+const IN_TEXELS: [&str; 13] = [
     "LightNode",
     "MomentNode",
     "BvhHeader",
@@ -20,7 +19,6 @@ const IN_TEXELS: [&str; 9] = [
     "HitTangents",
     "HitMaterial",
     "HitTexture",
-    "AreaRecord",
     "AreaRecord",
     "VirtualLight",
     "VirtualNode",
@@ -95,6 +93,8 @@ fn hits_fill_whole_texels() {
     assert_eq!(places("HitMaterial"), [0, 12, 16, 28, 32, 36, 40, 44, 48, 52, 56, 60, 64, 68, 72, 76]);
     assert_eq!(of("HitMaterial").size, 16 * shared::HIT_MATERIAL_TEXELS as usize);
     assert_eq!((places("HitTexture"), of("HitTexture").size), (vec![0, 4, 8, 12], 16));
+}
+
 /// Two texels of a vector and a scalar each.
 #[test]
 fn virtual_lights_fill_two_texels() {

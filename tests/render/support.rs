@@ -4,11 +4,10 @@ use amas::passes::aov::Quantity;
 use amas::reference::{self, Options};
 use amas::scene::load_embedded;
 use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage, Scene, Timings};
-use image::{ImageFormat, Rgba};
-use std::io::Cursor;
 use std::sync::Arc;
 
 use crate::common::gpu::CheckedGpu;
+pub(crate) use crate::common::png::png;
 
 /// A scene from its text.
 pub(crate) fn scene(text: &str) -> Scene {
@@ -196,13 +195,4 @@ pub(crate) fn unranged_lights(count: usize) -> String {
         "[[light]]\ntype = \"points\"\ngenerate = {{ count = {count}, seed = 9, min = [-4, 0.5, -4], max = [4, 3, 4], \
          intensity = [0.1, 1.0] }}\n"
     )
-}
-
-/// A texture as the bytes of its file.
-pub(crate) fn png(size: [u32; 2], texel: impl Fn(u32, u32) -> [u8; 4]) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    image::RgbaImage::from_fn(size[0], size[1], |x, y| Rgba(texel(x, y)))
-        .write_to(&mut Cursor::new(&mut bytes), ImageFormat::Png)
-        .unwrap();
-    bytes
 }
