@@ -64,12 +64,8 @@ impl<'a> Rounds<'a> {
         };
         let set = tracer.trace_while(self.scene.render.vpls as usize, u64::from(number), proceed)?;
         let emitters = VirtualTree::new(&set.emitters);
-        proceed().then(|| Round {
-            points,
-            emitters,
-            virtuals: VirtualTree::new(&set.bounced),
-            spacing: set.spacing,
-        })
+        let virtuals = VirtualTree::new_while(&set.bounced, proceed)?;
+        Some(Round { points, emitters, virtuals, spacing: set.spacing })
     }
 }
 

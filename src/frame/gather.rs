@@ -110,7 +110,8 @@ impl Frame {
             Sample { first: false, shaded: false, points: false, scales: self.scales(inputs, self.samples) };
         let before = watch.cpu();
         self.device.run("gather", |cmd| {
-            if first == 0 {
+            // Without jitter every frame sees the same surfaces.
+            if first == 0 && (index == 0 || inputs.samples > 1) {
                 self.prepass.record(cmd, &self.view());
                 gather.begin(cmd, &self.view(), index);
                 // The pass over the surfaces stores the depth that it has only tested.

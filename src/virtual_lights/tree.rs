@@ -7,6 +7,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::octahedral::{Cone, unpack_normal};
+use super::trace::Proceed;
 use crate::hilbert;
 use crate::scene::PointLight;
 use crate::shared::{VIRTUAL_ISOTROPIC, VirtualLight, VirtualNode};
@@ -26,6 +27,13 @@ impl VirtualTree {
     /// The tree over lights on surfaces.
     #[must_use]
     pub fn new(lights: &[VirtualLight]) -> Self {
+        Self::new_while(lights, &|| true).unwrap_or_default()
+    }
+
+    /// As [`VirtualTree::new`]; asks between its steps whether to go on. `None`
+    /// where the answer was no.
+    #[must_use]
+    pub fn new_while(lights: &[VirtualLight], proceed: Proceed<'_>) -> Option<Self> {
         let mut classes: [Vec<u32>; 6] = Default::default();
         for (index, light) in (0..).zip(lights) {
             classes[class(light)].push(index);
@@ -35,7 +43,8 @@ impl VirtualTree {
             let order = hilbert::order(class.iter().map(place));
             order.into_iter().map(|at| lights[class[at as usize] as usize]).collect::<Vec<_>>()
         };
-        Self::over(classes.par_iter().map(ordered).collect::<Vec<_>>().concat())
+        let parts = classes.par_iter().map(|class| proceed().then(|| ordered(class)));
+        Self::over(parts.collect::<Option<Vec<_>>>()?.concat(), proceed)
     }
 
     /// The tree over point lights, relative to `origin`.
@@ -53,24 +62,25 @@ impl VirtualTree {
                 extra: inverse.to_bits(),
             }
         };
-        Self::over(order.into_iter().map(light).collect())
+        Self::over(order.into_iter().map(light).collect(), &|| true).unwrap_or_default()
     }
 
     /// The tree over lights in this order.
-    fn over(lights: Vec<VirtualLight>) -> Self {
+    fn over(lights: Vec<VirtualLight>, proceed: Proceed<'_>) -> Option<Self> {
         let leaves = lights.len().max(1).next_power_of_two();
         let mut nodes = vec![VirtualNode::default(); 2 * leaves];
         let mut level: Vec<Bundle> = lights.par_iter().map(Bundle::of).collect();
         let mut first = leaves;
-        loop {
+        while proceed() {
             let below = &mut nodes[first..first + level.len()];
             below.par_iter_mut().zip(&level).for_each(|(node, bundle)| *node = bundle.node());
             if first == 1 {
-                return Self { lights, nodes, leaves };
+                return Some(Self { lights, nodes, leaves });
             }
             level = level.par_chunks(2).map(|pair| pair[1..].iter().fold(pair[0], Bundle::with)).collect();
             first /= 2;
         }
+        None
     }
 }
 

@@ -181,17 +181,17 @@ fn shaders_change_under_the_window() {
     let path = scene(folder.path());
     let glsl = folder.path().join("glsl");
     copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join("glsl"), &glsl);
-    let present = glsl.join("present/present.frag");
+    let present = glsl.join("present/encode.glsl");
     let text = std::fs::read_to_string(&present).unwrap();
     let first = rendered(&path, SIZE);
     let mut open = open(&path, &first, &["--glsl", &glsl.display().to_string()]);
 
-    std::fs::write(&present, text.replace("color = vec4(c, 1.0);", "color = vec4(d, 1.0);")).unwrap();
+    std::fs::write(&present, text.replace("return vec4(c, 1.0);", "return vec4(d, 1.0);")).unwrap();
     wait_until("the error", || differing(upper(&open.screen()).iter(), upper(&first).iter()) > 0.05);
     let screen = open.screen();
     assert_eq!(screen[screen.len() - 320..], first[first.len() - 320..], "the picture stays below");
 
-    let swapped = text.replace("color = vec4(c, 1.0);", "color = vec4(c.bgr, 1.0);");
+    let swapped = text.replace("return vec4(c, 1.0);", "return vec4(c.bgr, 1.0);");
     assert_ne!(swapped, text);
     std::fs::write(&present, swapped).unwrap();
     let want: Vec<[u8; 3]> = first.iter().map(|&[r, g, b]| [b, g, r]).collect();

@@ -59,7 +59,8 @@ impl Pace {
     /// A slice took so many milliseconds.
     pub(super) fn took(&mut self, slice: Slice, ms: f64) {
         let rows = f64::from(slice.rows);
-        self.rows = slice.rows.max(self.rows / 2);
+        // What the frame's end cuts short is no measure.
+        self.rows = if slice.ends() { self.rows.max(slice.rows) } else { slice.rows };
         match (slice.begins(), slice.ends()) {
             (true, true) => self.row = ms / rows,
             (true, false) => self.begin = (ms - rows * self.row).max(0.0),
