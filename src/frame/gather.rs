@@ -114,8 +114,6 @@ impl Frame {
             if first == 0 && (index == 0 || inputs.samples > 1) {
                 self.prepass.record(cmd, &self.view());
                 gather.begin(cmd, &self.view(), index);
-                // The pass over the surfaces stores the depth that it has only tested.
-                cmd.memory_barrier(Use::DepthWrite, Use::ComputeRead);
             }
             gather.record(cmd, &self.view(), lights, index, first..end);
             if complete {

@@ -12,24 +12,24 @@ fn furnished(render: &str, floor: &str) -> amas::Scene {
 
 #[test]
 fn one_bounce() {
-    judge("one bounce", furnished(&THREE.replace("bounces = 3", "bounces = 1"), MATTE), 250);
+    judge("one bounce", furnished(&THREE.replace("bounces = 3", "bounces = 1"), MATTE), 1000);
 }
 
 #[test]
 fn all_bounces() {
-    judge("all bounces", furnished(&THREE.replace("bounces = 3", "bounces = 64"), MATTE), 250);
+    judge("all bounces", furnished(&THREE.replace("bounces = 3", "bounces = 64"), MATTE), 1000);
 }
 
 #[test]
 fn glossy_plastic() {
     let floor =
         "type = \"plastic\"\ndiffuse = [0.3, 0.3, 0.3]\nspecular = [0.9, 0.9, 0.9]\neta = 1.8\nalpha = 0.12";
-    judge("plastic", furnished(THREE, floor), 250);
+    judge("plastic", furnished(THREE, floor), 1000);
 }
 
 #[test]
 fn glossy_metal() {
-    judge("metal", furnished(THREE, "type = \"metal\"\npreset = \"gold\"\nalpha = 0.2"), 250);
+    judge("metal", furnished(THREE, "type = \"metal\"\npreset = \"gold\"\nalpha = 0.2"), 1000);
 }
 
 /// Rough matte below, substrate and principled with a clear coat on it.
@@ -41,7 +41,7 @@ fn other_models() {
          roughness = 0.5\nsheen = 0.4\nsubsurface = 0.3\nclearcoat = 0.8\nclearcoat_gloss = 0.6\n";
     let things = THINGS.replacen("\"white\"", "\"substrate\"", 1).replacen("\"white\"", "\"principled\"", 1);
     let floor = "type = \"matte\"\ncolor = [0.8, 0.7, 0.6]\nsigma = 30";
-    judge("other models", scene(&room(THREE, floor, &[more, LAMP, &things].concat()), &[]), 250);
+    judge("other models", scene(&room(THREE, floor, &[more, LAMP, &things].concat()), &[]), 1000);
 }
 
 /// A textured lamp; textures that are seen, with texels larger than pixels, and one that only throws its light back: the
@@ -60,5 +60,5 @@ fn textures() {
         ("default_rug.png", include_bytes!("../../scenes/default_rug.png")),
         ("squares.png", &squares),
     ];
-    judge("textures", scene(&text, &files), 250);
+    judge("textures", scene(&text, &files), 1000);
 }

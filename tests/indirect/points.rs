@@ -28,7 +28,7 @@ fn shadows_alone() {
 #[test]
 fn with_indirect_light() {
     let scene = scene(&text("indirect = { vpls = 2048, bounces = 3 }"), &[]);
-    let rig = judge("points and indirect", scene, 250);
+    let rig = judge("points and indirect", scene, 1000);
     // Their own light, apart from what the room makes of it.
     let options = Options { integrator: Integrator::Shadowed, ..Options::of_scene(&rig.scene) };
     let truth = Truth::new(&rig.scene, &options);

@@ -16,7 +16,7 @@ const BOARDS: &str = "[[mesh]]\nshape = \"box\"\nsize = [0.6, 1.9, 0.05]\nmateri
 fn grooves() {
     let render = "size = [40, 30]\nindirect = { vpls = 2048, bounces = 6 }";
     let scene = scene(&room(render, "type = \"matte\"\ncolor = [0.9, 0.9, 0.9]", BOARDS), &[]);
-    let truth = Truth::gathered(&scene, 150);
+    let truth = Truth::gathered(&scene, 800);
     let rig = judge_by("grooves", Rig::new(scene), &truth);
     let picture = rig.gathered();
     let [width, height] = [picture.width, picture.height].map(|side| side as i32);
@@ -45,7 +45,7 @@ fn thin_wall() {
          radiance = [14, 12, 9]\nvisible = false\n",
     );
     let scene = scene(&text, &[]);
-    let truth = Truth::gathered(&scene, 150);
+    let truth = Truth::gathered(&scene, 800);
     let rig = judge_by("thin wall", Rig::new(scene), &truth);
     // The viewer is in the wall's plane: what is left of the middle is lit.
     let picture = rig.gathered();
