@@ -47,6 +47,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Whether each round has lights of its own.
+    #[cfg(feature = "viewer")]
     pub(super) fn differ(&self) -> bool {
         self.tracer.is_some()
     }
@@ -71,6 +72,7 @@ impl<'a> Rounds<'a> {
 
 impl Round<'_> {
     /// Lights that stand for reflected light.
+    #[cfg(feature = "viewer")]
     pub(super) fn virtual_lights(&self) -> usize {
         self.virtuals.lights.len()
     }
