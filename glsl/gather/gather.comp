@@ -24,13 +24,12 @@ layout(local_size_x = GATHER_SIDE, local_size_y = GATHER_SIDE) in;
 layout(constant_id = 54) const bool GATHER_SHADOWS = true;
 layout(constant_id = 55) const bool GATHER_POINTS = true;
 layout(constant_id = 56) const bool GATHER_INDIRECT = true;
-layout(constant_id = 57) const bool GATHER_LAMBERT = false;
 layout(push_constant, std430) uniform PushBlock { GatherConstants gather; };
 layout(set = SET_gather, binding = GATHER_SUMS, rgba32f) uniform image2DArray sums;
 
 // Of a single frame: no picture is brighter.
 const vec3 MOST_RADIANCE = vec3(1e30);
-// Bounces before a path may be ended by chance, and the least that are then left of it.
+// Bounces before a path may be ended by chance.
 const uint SAFE_BOUNCES = 2u;
 // Radii of half a tile within which its pixels draw the scene's own lights for themselves.
 const float NEAR_TILES = 2.0;
@@ -71,7 +70,7 @@ vec3 from_light(Vertex v, VirtualLight light, float over, float bound, uint most
     vec3 way = light.position - v.origin;
     float reach = length(way);
     if (GATHER_SHADOWS && !dark) dark = occluded(v.origin, way / max(reach, TINY), 0.0, reach * (1.0 - 1e-6));
-    return dark ? vec3(0.0) : sum;
+    return dark ? vec3(0.0) : clamp(sum, -MOST_RADIANCE, MOST_RADIANCE);
 }
 
 // One light of a tree, of those nearer than `within`.
@@ -170,7 +169,9 @@ vec3 indirect(Vertex v) {
     for (uint bounce = 0u; bounce <= gather.bounces && goes_on; ++bounce) {
         if (bounce > 0u) radiance += throughput * own_lights(v);
         radiance += throughput * virtual_lights(v, bounce == 0u, gather.bounces - bounce);
-        if (bounce >= SAFE_BOUNCES) {
+        // Behind the last bounce there is only the background.
+        goes_on = bounce < gather.bounces || frame.background != vec3(0.0);
+        if (goes_on && bounce >= SAFE_BOUNCES) {
             float survival = min(greatest(abs(throughput)), 0.95);
             goes_on = random() < survival;
             throughput /= max(survival, TINY);
@@ -187,8 +188,8 @@ vec3 indirect(Vertex v) {
 
 void add(ivec2 pixel, uint layer, vec3 radiance) {
     ivec3 texel = ivec3(pixel, layer);
-    // Paths with next to no probability.
-    radiance = clamp(radiance, -MOST_RADIANCE, MOST_RADIANCE);
+    // Paths with next to no probability, whose products overflow.
+    radiance = mix(clamp(radiance, -MOST_RADIANCE, MOST_RADIANCE), vec3(0.0), isnan(radiance));
     imageStore(sums, texel, imageLoad(sums, texel) + vec4(radiance, 0.0));
 }
 
@@ -200,11 +201,11 @@ void draw_for_tile(uint tile_seed) {
     bool own = index >= all;
     random_state = hash(tile_seed + index);
     float u = (float(index % GATHER_DRAWN) + random()) * (1.0 / float(GATHER_DRAWN));
-    if (GATHER_INDIRECT && !own) {
+    if (GATHER_INDIRECT && !own && gather.virtuals.y > 0u) {
         Lit lit = half_lit(of_half, gather.bound);
         tile_lights[index] = candidate(gather.virtuals, lit, u, random_state, WITH_NORMALS);
     }
-    if (GATHER_POINTS && own) {
+    if (GATHER_POINTS && own && gather.points.y > 0u) {
         Lit lit = half_lit(of_half, UNBOUNDED);
         tile_lights[index] = candidate(gather.points, lit, u, random_state, ALL_AROUND);
     }

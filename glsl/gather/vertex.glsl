@@ -4,6 +4,7 @@
 #define GATHER_VERTEX_GLSL
 
 layout(constant_id = 1) const bool ANISOTROPIC = true;
+layout(constant_id = 57) const bool GATHER_LAMBERT = false;
 
 uint surface_model;
 #define MODEL surface_model
@@ -53,8 +54,10 @@ const float MOST_LOBE = 2.0;
 // Which share of the light between two vertices gathering takes over; a path has the rest. `reflected` is the response.
 float gathered_share(float bound, vec3 reflected, float cos_here, float cos_there, float d2) {
     float geometry = cos_here * cos_there;
-    float lobe = max(reflected.r, max(reflected.g, reflected.b)) * PI;
+    float lobe = greatest(reflected) * PI;
     float near = min(1.0, bound * d2 / max(geometry, TINY));
+    // Paths look only for what is near: what is far has to be gathered, however bright the surface.
+    if (GATHER_LAMBERT) return near;
     return near * min(1.0, MOST_LOBE * cos_here / max(lobe, TINY));
 }
 

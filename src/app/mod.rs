@@ -104,7 +104,7 @@ fn warn_of_gathered_light(scene: &Scene) {
     if points || scene.render.vpls > 0 {
         terminal::complain(
             "warning: indirect light and point lights with shadows are gathered over many frames, which are left out here\n  \
-             remedy: use `amas render` for them, or --set vpls=0 and --set shadows=false",
+             remedy: use `amas render` for them, or --set indirect.vpls=0 and --set shadows=false",
         );
     }
 }

@@ -41,13 +41,12 @@ impl<'a> Rounds<'a> {
         let lights = if wanted.anything() { scene.point_lights_at(time) } else { Vec::new() };
         Self {
             scene,
-            tracer: wanted.indirect.then(|| Tracer::new(scene, origin)),
+            tracer: wanted.indirect.then(|| Tracer::at(scene, origin, time)),
             points: VirtualTree::of_points(&lights, origin),
         }
     }
 
     /// Whether each round has lights of its own.
-    #[cfg(feature = "viewer")]
     pub(super) fn differ(&self) -> bool {
         self.tracer.is_some()
     }
@@ -94,13 +93,15 @@ pub(super) fn refine(
     let start = Instant::now();
     let mut timings = Timings::default();
     loop {
-        timings.add(&Timings::of("trace", || {
-            let round = rounds.round(frame.gathered() / GATHER_FRAMES, &|| true);
-            round.map_or(Ok(()), |round| {
-                frame.set_gathered_lights(round.upload(device)?);
-                Ok(())
-            })
-        })?);
+        let number = frame.gathered() / GATHER_FRAMES;
+        if number == 0 || rounds.differ() {
+            timings.add(&Timings::of("trace", || {
+                rounds.round(number, &|| true).map_or(Ok(()), |round| {
+                    frame.set_gathered_lights(round.upload(device)?);
+                    Ok(())
+                })
+            })?);
+        }
         for _ in 0..GATHER_FRAMES {
             timings.add(&frame.gather(inputs)?);
             if goal.time_limit.is_some_and(|limit| start.elapsed().as_secs_f64() >= limit) {

@@ -7,6 +7,7 @@ use super::outputs::{
 };
 use super::refine::{Goal, Rounds, refine};
 use super::report::{self, Report};
+use super::terminal::{complain, print};
 use super::{FRAME_RATE, camera, in_scene, load_scene};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings};
@@ -55,6 +56,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
             let (refining, left) = refine(&mut frame, &rounds, &device, &inputs, goal)?;
             taken.add(&refining);
             error = left;
+            tell_error(frame.gathered(), goal, left)?;
         }
         timings.push(taken);
         save(&frame, settings.size, (&outputs, index))?;
@@ -92,6 +94,20 @@ fn progress(samples: u64) -> ProgressBar {
     } else {
         ProgressBar::hidden()
     }
+}
+
+/// Says how far gathered light has come, and where a time limit ended it early.
+fn tell_error(frames: u32, goal: Goal, error: Option<f64>) -> Result<()> {
+    let percent = |share: f64| format!("{:.2} %", 100.0 * share);
+    let known = error.map_or_else(|| "unknown before two rounds".into(), percent);
+    print(format_args!("gathered light: {frames} frames, estimated error {known} of the picture's mean"))?;
+    if error.is_none_or(|error| error > goal.error) {
+        complain(format_args!(
+            "warning: the time limit came before the error was below {}\n  remedy: raise --time-limit, or --indirect-error",
+            percent(goal.error)
+        ));
+    }
+    Ok(())
 }
 
 fn save(frame: &Frame, [width, height]: [u32; 2], (outputs, index): (&[PathBuf], u32)) -> Result<()> {

@@ -100,7 +100,8 @@ struct ErrorEstimate {
     /// Mean over the pixels with a surface, of what folding and cuts cause; 0 where every light that reaches a pixel is
     /// evaluated.
     light_relative: f64,
-    indirect_relative: f64,
+    /// Of gathered light, by the spread of its rounds; `null` before there are two.
+    indirect_relative: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -155,7 +156,7 @@ impl<'a> Report<'a> {
             },
             error_estimate: ErrorEstimate {
                 light_relative: frame.light_error()?,
-                indirect_relative: gathered_error.unwrap_or(0.0),
+                indirect_relative: if frame.gathers().anything() { gathered_error } else { Some(0.0) },
             },
             clusters,
             validation_messages: device.validation_messages().map(|messages| messages.len()),

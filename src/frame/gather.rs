@@ -9,12 +9,14 @@ use crate::image::HdrImage;
 use crate::passes::PassInputs;
 use crate::passes::forward::Sample;
 use crate::passes::gather::{Gather, Gathered, GatheredLights};
-use crate::shared::{GATHER_FRAMES, GATHER_SUBSETS};
+use crate::shared::{GATHER_FRAMES, GATHER_SIDE, GATHER_SUBSETS};
 use crate::targets::Targets;
 use rayon::prelude::*;
 use std::sync::Arc;
 
 const SUBSETS: usize = GATHER_SUBSETS as usize;
+/// Vertices of paths that one submission to a GPU has at most.
+const PATHS_A_SUBMISSION: u32 = 1 << 22;
 /// Pixels that one task looks at.
 const PART: usize = 4096;
 
@@ -62,7 +64,21 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn gather(&mut self, inputs: &FrameInputs<'_>) -> Result<Timings> {
-        self.gather_rows(inputs, u32::MAX)
+        let rows = self.rows_a_submission();
+        let mut timings = self.gather_rows(inputs, rows)?;
+        while self.gathered_rows > 0 {
+            timings.add(&self.gather_rows(inputs, rows)?);
+        }
+        Ok(timings)
+    }
+
+    /// Rows of which the paths take far less than a GPU's watchdog allows; a CPU has none.
+    fn rows_a_submission(&self) -> u32 {
+        if self.device.is_cpu() {
+            return u32::MAX;
+        }
+        let paths = self.settings.size[0] * GATHER_SIDE * (self.settings.bounces + 1);
+        (PATHS_A_SUBMISSION / paths).max(1)
     }
 
     /// Rows of blocks of pixels in a frame of gathered light; 0 where nothing is gathered.
@@ -200,7 +216,7 @@ impl Frame {
         let total: f64 = picture.pixels.iter().flatten().map(|&value| f64::from(value)).sum();
         let values = (3 * picture.pixels.len()) as f64;
         let relative = (variance / values).sqrt() / (total / values);
-        Ok(Some(if variance > 0.0 { relative } else { 0.0 }))
+        Ok(Some(if variance == 0.0 { 0.0 } else { relative }))
     }
 }
 

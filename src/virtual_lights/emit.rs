@@ -56,7 +56,7 @@ pub struct Place {
 /// A light of the scene.
 #[derive(Clone, Debug)]
 enum Source<'a> {
-    Point(&'a PointLight),
+    Point(PointLight),
     Area(Area<'a>),
     Sky(Sky),
 }
@@ -81,11 +81,11 @@ pub struct Sources<'a> {
 }
 
 impl<'a> Sources<'a> {
-    /// Area lights, point lights at time 0, and the background.
+    /// Area lights, point lights at a time in seconds, and the background.
     #[must_use]
-    pub fn new(scene: &'a Scene) -> Self {
+    pub fn new(scene: &'a Scene, time: f64) -> Self {
         let areas: Vec<_> = scene.area_lights.iter().map(|light| Area::new(light, &scene.textures)).collect();
-        let points = scene.point_lights.iter().map(Source::Point);
+        let points = scene.point_lights_at(time).into_iter().map(Source::Point);
         let sources: Vec<_> = areas
             .iter()
             .cloned()

@@ -62,15 +62,21 @@ pub struct Tracer<'a> {
 }
 
 impl<'a> Tracer<'a> {
-    /// Makes ready what every path needs. Lights will be relative to `origin`.
+    /// Makes ready what every path needs, with moving lights where they are at time 0. Lights will be relative to `origin`.
     #[must_use]
     pub fn new(scene: &'a Scene, origin: glam::Vec3) -> Self {
+        Self::at(scene, origin, 0.0)
+    }
+
+    /// As [`Tracer::new`], with moving lights where they are at a time in seconds.
+    #[must_use]
+    pub fn at(scene: &'a Scene, origin: glam::Vec3, time: f64) -> Self {
         let seen = scene.area_lights.iter().filter(|light| light.visible);
         let mut tracer = Self {
             scene,
             geometry: Geometry::new(scene),
             luminaires: seen.map(|light| Emitter::new(light, &scene.textures)).collect(),
-            sources: Sources::new(scene),
+            sources: Sources::new(scene, time),
             origin: origin.as_dvec3(),
             pilot: Yield::default(),
         };
@@ -112,12 +118,15 @@ impl<'a> Tracer<'a> {
     /// are `count`.
     fn paths(&self, count: usize) -> usize {
         let Yield { mean, variance } = self.pilot;
+        if mean == 0.0 {
+            return count;
+        }
         let wanted = count as f64;
         let most = (MOST_PATHS * count) as f64;
         let all = (wanted / mean).min(most);
         let deviation = SAFETY * (variance * all * (1.0 + all / PILOT as f64)).sqrt();
         // At least half: of a few lights the deviation is more than all.
-        ((wanted - deviation).max(0.5 * wanted) / mean).min(most) as usize
+        ((wanted - deviation).max(0.5 * wanted) / mean).clamp(1.0, most) as usize
     }
 
     /// The lights of so many paths, in their order.
@@ -207,7 +216,9 @@ impl Vertex {
             (place - tracer.origin).abs().max_element()
         };
         let reach = mesh.triangles[hit.triangle].iter().map(coordinate).fold(0.0, f64::max);
-        let lit = surface.wo.z > 0.0 && cosine > 0.0;
+        // A two-sided normal turns to the light, the viewer's to the viewer: where it turns away from the lit side these see
+        // nothing of the light.
+        let lit = surface.wo.z > 0.0 && cosine > 0.0 && surface.frame.normal.dot(normal) > 0.0;
         lit.then_some(Self { surface, normal, reach, tilt: surface.wo.z / cosine })
     }
 

@@ -101,17 +101,3 @@ fn shapes_of_lights() {
     let rect = "type = \"rect\"\ncenter = [0, 2, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\nradiance = [1, 1, 1]\n";
     light(&[rect; 4097].join("[[light]]\n"), &["more than 4096 area lights"]);
 }
-
-/// What the format knows and the renderer does not yet: a sentence.
-#[test]
-fn not_supported_yet() {
-    let refused = |scene: String, what: &str| {
-        let folder = Folder::new();
-        folder.write("scene.toml", scene);
-        folder
-            .refused(&["render", "scene.toml", "-o", "a.png"], &["scene.toml: ", what, "not supported yet"]);
-        folder.refused(&["bench", "scene.toml", "--json", "b.json"], &[what]);
-    };
-    let render = |key| SCENE.replace("[render]", &format!("[render]\n{key}"));
-    refused(render("indirect = { vpls = 64 }"), "indirect light");
-}

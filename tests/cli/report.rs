@@ -149,7 +149,7 @@ fn area_lights() {
     assert_eq!(report["validation_messages"], 0);
 }
 
-/// Point lights cast no shadows yet: a warning, the same picture, and no tree of occluders on the device.
+/// Point lights cast shadows where they are asked for: over many frames, which `bench` leaves out and says so.
 #[test]
 fn shadows_of_point_lights() {
     let folder = Folder::new();
@@ -158,20 +158,21 @@ fn shadows_of_point_lights() {
     let warnings = |arguments: &[&str]| {
         let run = folder.run(arguments);
         assert_eq!(run.status, Some(0), "{run:?}");
-        run.stderr.matches("point lights cast none").count()
+        run.stderr.matches("gathered over many frames").count()
     };
     let render = |name: &str, key: &[&str]| {
         let (picture, report) = (format!("{name}.pfm"), format!("{name}.json"));
-        let count = warnings(&[&["render", "scene.toml", "-o", &picture, "--report", &report], key].concat());
+        let arguments = ["render", "scene.toml", "-o", &picture, "--report", &report, "--time-limit", "5"];
+        let count = warnings(&[&arguments, key].concat());
         let device = number(&folder.json(&report)["peak_memory"]["device_mb"]);
         (count, device, folder.read(&picture))
     };
     let without = render("without", &[]);
     let with = render("with", &["--set", "shadows=true"]);
-    assert_eq!((without.0, with.0), (0, 1));
-    // The sphere's 65,024 triangles alone take 3 MB.
-    assert!((with.1 - without.1).abs() < 0.5, "{} and {} MB", with.1, without.1);
-    assert!(with.2 == without.2);
+    assert_eq!((without.0, with.0), (0, 0));
+    // The tree over the sphere's 65,024 triangles takes some 3 MB, and is made for shadows alone.
+    assert!(with.1 > without.1 + 1.0, "{} and {} MB", with.1, without.1);
+    assert!(with.2 != without.2);
     let bench = ["bench", "scene.toml", "--set", "shadows=true", "--frames", "2", "--warmup", "1"];
     assert_eq!(warnings(&bench), 1);
     // Area lights do cast them: nothing to warn of.
@@ -180,7 +181,7 @@ fn shadows_of_point_lights() {
     folder.write("scene.toml", format!("{dark}{sphere}{rect}"));
     let area = render("area", &["--set", "shadows=true"]);
     assert_eq!(area.0, 0);
-    assert!(area.1 > with.1 + 1.0, "{} and {} MB", area.1, with.1);
+    assert!(area.1 > without.1 + 1.0, "{} and {} MB", area.1, without.1);
 }
 
 /// The validation layers are on, and silent.

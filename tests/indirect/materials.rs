@@ -38,7 +38,7 @@ fn other_models() {
     let more = "[[material]]\nname = \"substrate\"\ntype = \"substrate\"\ndiffuse = [0.4, 0.3, 0.2]\n\
          specular = [0.2, 0.2, 0.2]\nroughness = 0.5\nanisotropic = 0.5\n\
          [[material]]\nname = \"principled\"\ntype = \"principled\"\nbase_color = [0.5, 0.6, 0.3]\nmetallic = 0.3\n\
-         roughness = 0.5\nsheen = 0.4\nsubsurface = 0.3\nclearcoat = 0.8\nclearcoat_gloss = 0.6\n";
+         roughness = 0.5\nanisotropic = 0.7\nsheen = 0.9\nsheen_tint = 1\nsubsurface = 0.3\nclearcoat = 0.8\nclearcoat_gloss = 0.6\n";
     let things = THINGS.replacen("\"white\"", "\"substrate\"", 1).replacen("\"white\"", "\"principled\"", 1);
     let floor = "type = \"matte\"\ncolor = [0.8, 0.7, 0.6]\nsigma = 30";
     judge("other models", scene(&room(THREE, floor, &[more, LAMP, &things].concat()), &[]), 1000);

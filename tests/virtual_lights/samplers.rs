@@ -43,7 +43,7 @@ fn lit(light: &str) -> Scene {
 }
 
 fn rays(scene: &Scene) -> Vec<Emission> {
-    let sources = Sources::new(scene);
+    let sources = Sources::new(scene, 0.0);
     let mut next = random(11);
     let mut pair = || DVec2::new(next(), next());
     (0..RAYS).map(|_| sources.ray(pair().x, [pair(), pair()]).unwrap()).collect()

@@ -1,4 +1,5 @@
-// A material of one pixel in ten words: its model and the parameters that this one reads.
+// A material of one pixel in ten words, the last of which leaves its upper half free: its model and the parameters that
+// this one reads.
 //
 // All but the principled model fit as they are, and nothing is lost. Principled has 14 numbers. Colour and the weights to
 // which f is proportional are halves, ±2⁻¹² of them; the tints, which blend from 1 to a colour that may be 0, are 16-bit
@@ -30,8 +31,8 @@ PackedBsdf bsdf_pack(BsdfParameters p, uint model) {
         b.words[5] = packHalf2x16(color.rg);
         b.words[6] = packHalf2x16(vec2(color.b, p.roughness));
         b.words[7] = packHalf2x16(vec2(p.sheen, p.clearcoat));
-        b.words[8] = packHalf2x16(vec2(p.subsurface, 0.0));
-        b.words[9] = packUnorm2x16(vec2(p.specular_tint, p.sheen_tint));
+        b.words[8] = packUnorm2x16(vec2(p.specular_tint, p.sheen_tint));
+        b.words[9] = packHalf2x16(vec2(p.subsurface, 0.0));
     } else {
         for (uint i = 0u; i < 3u; i++) {
             b.words[3u + i] = floatBitsToUint(p.color[i]);
@@ -61,12 +62,12 @@ BsdfParameters bsdf_unpack(PackedBsdf b) {
     p.metallic = uintBitsToFloat(b.words[3]);
     p.clearcoat_gloss = uintBitsToFloat(b.words[4]);
     vec2 blue_roughness = unpackHalf2x16(b.words[6]), weights = unpackHalf2x16(b.words[7]);
-    vec2 tints = unpackUnorm2x16(b.words[9]);
+    vec2 tints = unpackUnorm2x16(b.words[8]);
     p.color = vec3(unpackHalf2x16(b.words[5]), blue_roughness.x);
     p.roughness = blue_roughness.y;
     p.sheen = weights.x;
     p.clearcoat = weights.y;
-    p.subsurface = unpackHalf2x16(b.words[8]).x;
+    p.subsurface = unpackHalf2x16(b.words[9]).x;
     p.specular_tint = tints.x;
     p.sheen_tint = tints.y;
     return p;

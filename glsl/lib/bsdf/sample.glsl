@@ -36,8 +36,6 @@ struct BsdfAlbedos {
     float coat;
 };
 
-float largest_channel(vec3 v) { return max(v.x, max(v.y, v.z)); }
-
 BsdfAlbedos matte_albedos(BsdfParameters p, float sin_o) {
     OrenNayar shape = oren_nayar(p);
     float even = 0.5 * shape.b * sin_o;
@@ -46,18 +44,18 @@ BsdfAlbedos matte_albedos(BsdfParameters p, float sin_o) {
 
 BsdfAlbedos plastic_albedos(BsdfParameters p, float cos_o) {
     float fresnel = fresnel_dielectric((p.eta - 1.0) * (p.eta + 1.0), sqr(cos_o));
-    return BsdfAlbedos(largest_channel(p.color), 0.0, largest_channel(p.specular) * fresnel, 0.0, 0.0);
+    return BsdfAlbedos(greatest(p.color), 0.0, greatest(p.specular) * fresnel, 0.0, 0.0);
 }
 
 BsdfAlbedos substrate_albedos(BsdfParameters p, vec3 wo, float cos_o) {
     float weight = pow5(1.0 - cos_o);
-    float base = largest_channel(p.color * (1.0 - p.specular)) * schlick_complement(0.5 * cos_o);
+    float base = greatest(p.color * (1.0 - p.specular)) * schlick_complement(0.5 * cos_o);
     // Visible normals weigh (cosθo + L)/(2 cosθo) at most, L about alpha at grazing angles. The rest is L − cosθo without
     // the subtraction, which leaves no digit of it where alpha is small.
     Ggx ggx = ggx_setup(p.alpha_x, p.alpha_y, wo);
     float rest = dot(ggx.alpha2, sqr(wo).xy) / (ggx.stretch_o + cos_o);
     float skimming = 0.3 * rest / max(rest + 2.0 * cos_o, TINY);
-    return BsdfAlbedos(base, 0.0, lerp(largest_channel(p.specular), 1.0, weight), skimming, 0.0);
+    return BsdfAlbedos(base, 0.0, lerp(greatest(p.specular), 1.0, weight), skimming, 0.0);
 }
 
 BsdfAlbedos principled_albedos(BsdfParameters p, float cos_o) {
@@ -65,8 +63,8 @@ BsdfAlbedos principled_albedos(BsdfParameters p, float cos_o) {
     float metallic = LOBE_METALLIC ? p.metallic : 0.0;
     float sheen = LOBE_SHEEN ? p.sheen : 0.0;
     float even = LOBE_SUBSURFACE ? 0.5 * p.subsurface * (1.0 - cos_o) : 0.0;
-    float base = (1.0 - metallic) * (largest_channel(p.color) + 0.2 * sheen);
-    float specular = lerp(largest_channel(principled_f0(p)), 1.0, weight);
+    float base = (1.0 - metallic) * (greatest(p.color) + 0.2 * sheen);
+    float specular = lerp(greatest(principled_f0(p)), 1.0, weight);
     float coat = LOBE_CLEARCOAT ? 0.25 * p.clearcoat * lerp(CLEARCOAT_F0, 1.0, weight) : 0.0;
     return BsdfAlbedos(base, even, specular, 0.0, coat);
 }

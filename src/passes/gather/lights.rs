@@ -54,7 +54,11 @@ impl GatheredLights {
 /// three rooms of 16,384 lights; at 32 a frame costs more than that saves.
 const NEAR: f32 = 16.0;
 
+/// Of lights a million metres apart.
+const LEAST_BOUND: f32 = 1e-12;
+
 /// Largest geometry term that gathering takes over, m⁻².
 fn bound(spacing: f32) -> f32 {
-    (NEAR * spacing).powi(2).recip().clamp(1e-12, 1e12)
+    // Hardly a light: all is left to paths.
+    if spacing > 0.0 { (NEAR * spacing).powi(2).recip().clamp(LEAST_BOUND, 1e12) } else { LEAST_BOUND }
 }
