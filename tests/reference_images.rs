@@ -81,7 +81,7 @@ fn points_on_all_five_models_are_exact() {
 /// Bounds: the reference's own error (its README), which block means divide by about 8, and the tolerance.
 #[test]
 fn rectangle_over_metal() {
-    within_noise(figures("a_rect_metal", 1e-2, 8, false), 1.2e-2 / 2.0);
+    within_noise(figures("a_rect_metal", 7e-3, 8, false), 1.2e-2 / 2.0);
 }
 
 #[test]

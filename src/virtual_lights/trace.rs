@@ -34,6 +34,8 @@ const MOST_PATHS: usize = 16;
 const SAFETY: f64 = 4.0;
 /// Points on area lights at most: as many as that, and their spread is less than the gather's.
 const MOST_EMITTERS: usize = 4096;
+/// And at least: paths find the light of these alone where there are hardly any virtual lights.
+const LEAST_EMITTERS: usize = 256;
 /// Paths that one task traces.
 const CHUNK: usize = 512;
 /// Whether to go on with a long job; a job may be paused by keeping it waiting for the answer.
@@ -98,7 +100,7 @@ impl<'a> Tracer<'a> {
     pub fn trace_while(&self, count: usize, seed: u64, proceed: Proceed<'_>) -> Option<LightSet> {
         let paths = self.paths(count);
         let bounced = self.bounced(paths, hash(&[seed, 0]), proceed)?.concat();
-        let emitters = self.emitters((count / 4).min(MOST_EMITTERS), hash(&[seed, 1]));
+        let emitters = self.emitters((count / 4).clamp(LEAST_EMITTERS, MOST_EMITTERS), hash(&[seed, 1]));
         proceed().then(|| LightSet { spacing: spacing(&bounced), emitters, bounced, paths })
     }
 
