@@ -120,7 +120,7 @@ impl<'a> Tracer<'a> {
     /// are `count`.
     fn paths(&self, count: usize) -> usize {
         let Yield { mean, variance } = self.pilot;
-        if mean == 0.0 {
+        if mean == 0.0 || count == 0 {
             return count;
         }
         let wanted = count as f64;
