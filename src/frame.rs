@@ -163,7 +163,6 @@ impl Frame {
         self.forward.resize(&self.device, &self.targets)?;
         if let Some(gather) = &mut self.gather {
             gather.resize(&self.device, &self.targets)?;
-            gather::blacken(&self.device, gather)?;
         }
         let now = self.lists.capacity;
         let start = Capacity::start(tiles_of(size), self.work.lists, now.mask);

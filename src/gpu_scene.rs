@@ -6,6 +6,7 @@ mod edit;
 mod geometry;
 pub mod hits;
 mod lights;
+mod models;
 pub mod occluders;
 mod resolved;
 mod tables;
@@ -27,6 +28,7 @@ use glam::Vec3;
 use hits::Hits;
 pub use lights::moment_row;
 use lights::{LightImages, Moving, placed};
+use models::models;
 use occluders::Occluders;
 use rayon::prelude::*;
 use resolved::Resolved;
@@ -71,6 +73,8 @@ pub struct GpuScene {
     pub resolved: Resolved,
     /// Constants of the materials.
     pub records: Vec<MaterialRecord>,
+    /// Models and lobes that any surface has: specialisation constants of shaders that meet them all.
+    pub models: Vec<(u32, u32)>,
     /// Whether every surface is Lambertian.
     pub lambertian: bool,
     /// Median of the point lights' ranges, metres; 0 without any.
@@ -146,6 +150,7 @@ impl GpuScene {
             triangles: Buffer::with(device, "triangles", BufferUse::Index, &geometry.triangles)?,
             draws: geometry.draws,
             resolved: Resolved::new(&variants, records.len()),
+            models: models(&of_material),
             lambertian: scene.materials.iter().all(is_lambertian),
             records,
             variants,
@@ -179,6 +184,13 @@ impl GpuScene {
     pub fn move_lights(&self, t: f64) -> Result<()> {
         self.moving.as_ref().map_or(Ok(()), |moving| moving.move_to(t, &self.light_images))
     }
+}
+
+/// Whether its tangents matter.
+fn is_anisotropic(material: &Material) -> bool {
+    let aspect = material.value(Parameter::Aspect);
+    let round = [Model::Matte, Model::Plastic].contains(&material.model);
+    !round && (aspect.texture.is_some() || (aspect.constant[0] - 1.0).abs() > 1e-6)
 }
 
 fn is_lambertian(material: &Material) -> bool {
@@ -227,13 +239,9 @@ fn variant(material: &Material, tables: &Tables) -> Result<Variant> {
         let value = material.value(parameter);
         u32::from(value.texture.is_some() || value.constant[0] > 0.0)
     };
-    let aspect = material.value(Parameter::Aspect);
-    let anisotropic = material.model != Model::Matte
-        && material.model != Model::Plastic
-        && (aspect.texture.is_some() || (aspect.constant[0] - 1.0).abs() > 1e-6);
     let mut specialization = Specialization::default()
         .with(shared::SPEC_MODEL, material.model as u32)
-        .with(shared::SPEC_ANISOTROPIC, u32::from(anisotropic))
+        .with(shared::SPEC_ANISOTROPIC, u32::from(is_anisotropic(material)))
         .with(shared::SPEC_SQUARED_ROUGHNESS, u32::from(material.squared_roughness))
         .with(shared::SPEC_ROUGH_MATTE, used(Parameter::Sigma))
         .with(shared::SPEC_LOBE_SHEEN, used(Parameter::Sheen))

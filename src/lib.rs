@@ -32,6 +32,7 @@
 //! | [`targets`] | every image the frame renders into |
 //! | [`passes`] | one file a pass |
 //! | [`frame`] | the frame: passes in order, and the barriers between them |
+//! | [`mod@refine`] | rounds of gathered light, until a picture is good enough |
 //! | [`probe`] | how tests call the shaders' library |
 //! | [`app`] | the subcommands |
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test that panics fails"))]
@@ -54,6 +55,7 @@ pub mod ltc;
 pub mod passes;
 pub mod probe;
 pub mod reference;
+pub mod refine;
 pub mod scene;
 pub mod shared;
 pub mod targets;

@@ -1,4 +1,4 @@
-//! Gathered light, frame by frame: indirect light, and point lights with shadows.
+//! Rounds of gathered light: lights anew for each, and a frame for each of its strata.
 
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, Timings};
@@ -9,26 +9,16 @@ use crate::shared::GATHER_FRAMES;
 use crate::virtual_lights::{Proceed, Tracer, VirtualTree};
 use glam::Vec3;
 use std::sync::Arc;
-use std::time::Instant;
-
-/// When a picture is good enough.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Goal {
-    /// Estimated relative error.
-    pub(super) error: f64,
-    /// Seconds.
-    pub(super) time_limit: Option<f64>,
-}
 
 /// Where the lights of each round come from.
-pub(super) struct Rounds<'a> {
+pub struct Rounds<'a> {
     scene: &'a Scene,
     tracer: Option<Tracer<'a>>,
     points: VirtualTree,
 }
 
 /// The lights of a round, and the trees over them.
-pub(super) struct Round<'a> {
+pub struct Round<'a> {
     points: &'a VirtualTree,
     emitters: VirtualTree,
     virtuals: VirtualTree,
@@ -37,7 +27,8 @@ pub(super) struct Round<'a> {
 
 impl<'a> Rounds<'a> {
     /// Of a scene at a time in seconds, for what a frame gathers; lights will be relative to `origin`.
-    pub(super) fn new(scene: &'a Scene, origin: Vec3, wanted: Gathered, time: f64) -> Self {
+    #[must_use]
+    pub fn new(scene: &'a Scene, origin: Vec3, wanted: Gathered, time: f64) -> Self {
         let lights = if wanted.anything() { scene.point_lights_at(time) } else { Vec::new() };
         Self {
             scene,
@@ -47,12 +38,14 @@ impl<'a> Rounds<'a> {
     }
 
     /// Whether each round has lights of its own.
-    pub(super) fn differ(&self) -> bool {
+    #[must_use]
+    pub fn differ(&self) -> bool {
         self.tracer.is_some()
     }
 
     /// A round; `None` where `proceed` says so.
-    pub(super) fn round(&self, number: u32, proceed: Proceed<'_>) -> Option<Round<'_>> {
+    #[must_use]
+    pub fn round(&self, number: u32, proceed: Proceed<'_>) -> Option<Round<'_>> {
         let points = &self.points;
         let Some(tracer) = &self.tracer else {
             return Some(Round {
@@ -67,50 +60,53 @@ impl<'a> Rounds<'a> {
         let virtuals = VirtualTree::new_while(&set.bounced, proceed)?;
         Some(Round { points, emitters, virtuals, spacing: set.spacing })
     }
+
+    /// Adds a round to the picture that `frame` rendered last, or what of it is left; what that took. Ends early, after a
+    /// frame at least, where `proceed` says so.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn add(
+        &self,
+        frame: &mut Frame,
+        device: &Arc<Device>,
+        inputs: &FrameInputs<'_>,
+        proceed: Proceed<'_>,
+    ) -> Result<Timings> {
+        let mut timings = Timings::default();
+        if !frame.gathers().anything() {
+            return Ok(timings);
+        }
+        let number = frame.gathered() / GATHER_FRAMES;
+        if number == 0 || self.differ() {
+            timings.add(&Timings::of("trace", || {
+                let round = self.round(number, &|| true);
+                round.map_or(Ok(()), |round| {
+                    round.upload(device).map(|lights| frame.set_gathered_lights(lights))
+                })
+            })?);
+        }
+        loop {
+            timings.add(&frame.gather(inputs)?);
+            if frame.gathered() / GATHER_FRAMES != number || !proceed() {
+                return Ok(timings);
+            }
+        }
+    }
 }
 
 impl Round<'_> {
     /// Lights that stand for reflected light.
-    #[cfg(feature = "viewer")]
-    pub(super) fn virtual_lights(&self) -> usize {
+    #[must_use]
+    pub fn virtual_lights(&self) -> usize {
         self.virtuals.lights.len()
     }
 
     /// On the device.
-    pub(super) fn upload(&self, device: &Arc<Device>) -> Result<GatheredLights> {
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] where memory is short.
+    pub fn upload(&self, device: &Arc<Device>) -> Result<GatheredLights> {
         GatheredLights::new(device, [self.points, &self.emitters, &self.virtuals], self.spacing)
-    }
-}
-
-/// Refines the picture last rendered until it is good enough; what that took, and the error that is left, if it is known.
-pub(super) fn refine(
-    frame: &mut Frame,
-    rounds: &Rounds<'_>,
-    device: &Arc<Device>,
-    inputs: &FrameInputs<'_>,
-    goal: Goal,
-) -> Result<(Timings, Option<f64>)> {
-    let start = Instant::now();
-    let mut timings = Timings::default();
-    loop {
-        let number = frame.gathered() / GATHER_FRAMES;
-        if number == 0 || rounds.differ() {
-            timings.add(&Timings::of("trace", || {
-                rounds.round(number, &|| true).map_or(Ok(()), |round| {
-                    frame.set_gathered_lights(round.upload(device)?);
-                    Ok(())
-                })
-            })?);
-        }
-        for _ in 0..GATHER_FRAMES {
-            timings.add(&frame.gather(inputs)?);
-            if goal.time_limit.is_some_and(|limit| start.elapsed().as_secs_f64() >= limit) {
-                return Ok((timings, frame.gathered_error()?));
-            }
-        }
-        let error = frame.gathered_error()?;
-        if error.is_some_and(|error| error <= goal.error) {
-            return Ok((timings, error));
-        }
     }
 }

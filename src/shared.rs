@@ -330,6 +330,10 @@ shared! {
         SPEC_GATHER_INDIRECT = 56;
         /// Every surface is Lambertian, and the background black: only what is near has to be looked for.
         SPEC_GATHER_LAMBERT = 57;
+        /// Of models known at run time only, a bit for each that there is.
+        SPEC_BSDF_MODELS = 58;
+        /// Some surface that a ray may hit has a normal map.
+        SPEC_HIT_NORMAL_MAPS = 59;
         /// Pixels along a side of a workgroup that gathers.
         GATHER_SIDE = 8;
         /// Pixels of a workgroup.
@@ -550,12 +554,8 @@ shared! {
             bound: float;
             /// Bounces between the eye's surface and a light, at most.
             bounces: uint;
-            /// Frame of the round, below `GATHER_FRAMES`.
-            frame: uint;
-            /// Another one for each round.
-            seed: uint;
-            /// Subset that it is added to.
-            subset: uint;
+            /// Frame, of all rounds.
+            index: uint;
             /// First row of pixels.
             row: uint;
         }
@@ -853,7 +853,7 @@ shared! {
             /// Texture coordinates of the other corners.
             uv_bc: vec4;
         }
-        /// Tangents of a triangle whose material has a direction, zero without texture coordinates.
+        /// Tangents of a triangle whose material has a direction or a normal map, zero without texture coordinates.
         HitTangents {
             /// First corner.
             a: vec3;
@@ -861,12 +861,12 @@ shared! {
             material: uint;
             /// Second corner.
             b: vec3;
-            /// 0.
-            spare_b: uint;
+            /// Side of the bitangent, by its sign.
+            handed: float;
             /// Third corner.
             c: vec3;
             /// 0.
-            spare_c: uint;
+            spare: uint;
         }
         /// A material's constants: rows by `Parameter`.
         HitMaterial {
@@ -959,8 +959,8 @@ shared! {
             t_max: float;
             /// Unit geometric normal along which the start is moved.
             normal: vec3;
-            /// Scale of that move; 0: none.
-            scale: float;
+            /// How far the start was found along a ray.
+            way: float;
         }
         /// A material's constants; rows by `Parameter`, and one to fill the 256 bytes to which uniform buffers may have
         /// to be aligned.

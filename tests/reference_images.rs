@@ -7,11 +7,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use amas::compare::{Figures, Mask, Options as Compare, compare};
-use amas::passes::gather::GatheredLights;
 use amas::reference::{Integrator, Options, render};
+use amas::refine::Rounds;
 use amas::scene::{self, Scene};
-use amas::shared::GATHER_FRAMES;
-use amas::virtual_lights::{Tracer, VirtualTree};
 use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage};
 use common::gpu::CheckedGpu;
 
@@ -166,15 +164,9 @@ fn gathered(scene: &Scene, bounces: u32) -> HdrImage {
     let (samples, progress) = (scene.render.samples, indicatif::ProgressBar::hidden());
     let inputs = FrameInputs { camera, time: 0.0, samples, exposure: 0.0, split: false, progress };
     frame.render(&inputs).unwrap();
-    let tracer = Tracer::new(&scene, gpu_scene.origin);
-    for round in 0..ROUNDS {
-        let set = tracer.trace(scene.render.vpls as usize, round);
-        let trees =
-            [&VirtualTree::default(), &VirtualTree::new(&set.emitters), &VirtualTree::new(&set.bounced)];
-        frame.set_gathered_lights(GatheredLights::new(&device, trees, set.spacing).unwrap());
-        for _ in 0..GATHER_FRAMES {
-            frame.gather(&inputs).unwrap();
-        }
+    let rounds = Rounds::new(&scene, gpu_scene.origin, frame.gathers(), 0.0);
+    for _ in 0..ROUNDS {
+        rounds.add(&mut frame, &device, &inputs, &|| true).unwrap();
     }
     let [indirect, _] = frame.gathered_light().unwrap().unwrap();
     indirect

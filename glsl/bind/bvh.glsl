@@ -6,6 +6,7 @@
 #define BIND_BVH_GLSL
 
 #include "lib/bvh.glsl"
+#include "lib/rows.glsl"
 
 // lavapipe runs the look-up of a mask for every triangle that is tested, masked or not: a ray of a scene without masks
 // would take 1.15 to 1.3 times as long.
@@ -14,8 +15,7 @@ layout(constant_id = 49) const bool OCCLUDER_MASKS = true;
 layout(set = SET_scene, binding = SCENE_BVH) uniform utexture2D bvh_texels;
 
 uvec4 bvh_texel(uint index) {
-    ivec2 texel = ivec2(index & ((1u << BVH_WIDTH_LOG2) - 1u), index >> BVH_WIDTH_LOG2);
-    return texelFetch(bvh_texels, texel, 0);
+    return texelFetch(bvh_texels, in_rows(index, BVH_WIDTH_LOG2), 0);
 }
 
 BvhHeader bvh_header() {
@@ -47,12 +47,11 @@ bool mask_holds(uint texel, vec3 weights) {
     return mix(rows.x, rows.y, s.y) >= 0.5;
 }
 
-bool triangle_hides(BvhRay ray, uint texel) {
+// As triangle_met(), of the triangle from a texel on, where its mask leaves it.
+bool triangle_hides(BvhRay ray, uint texel, out vec3 weights, out float t) {
     uvec4 a = bvh_texel(texel);
     vec3 b = uintBitsToFloat(bvh_texel(texel + 1u).xyz);
     vec3 c = uintBitsToFloat(bvh_texel(texel + 2u).xyz);
-    vec3 weights;
-    float t;
     bool met = triangle_met(ray, uintBitsToFloat(a.xyz), b, c, weights, t);
     if (!OCCLUDER_MASKS) return met;
     return met && (a.w == 0u || mask_holds(a.w, weights));
@@ -89,8 +88,10 @@ bool occluded(vec3 origin, vec3 direction, float t_min, float t_max) {
         }
         uint first = (leaf & ~BVH_LEAF_BIT) >> BVH_COUNT_BITS;
         uint count = leaf & ((1u << BVH_COUNT_BITS) - 1u);
+        vec3 weights;
+        float t;
         for (uint i = 0u; i < count; ++i) {
-            hidden = hidden || triangle_hides(ray, first + i * BVH_TRIANGLE_TEXELS);
+            hidden = hidden || triangle_hides(ray, first + i * BVH_TRIANGLE_TEXELS, weights, t);
         }
         if (hidden) index = header.nodes;
     }

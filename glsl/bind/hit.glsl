@@ -1,13 +1,15 @@
 // Set 1: what a ray finds, shaded: place, frame and material of the nearest hit.
 //
-// The including shader defines ANISOTROPIC before this line, as lib/bsdf.glsl asks of it; false spares the tangents.
-// Not here: normal maps.
+// The including shader defines ANISOTROPIC before this line, as lib/bsdf.glsl asks of it.
 #ifndef BIND_HIT_GLSL
 #define BIND_HIT_GLSL
 
 #include "bind/nearest.glsl"
 #include "lib/bsdf/parameters.glsl"
 #include "lib/frame.glsl"
+
+// false: no material has any. Tangents are fetched where either may need them.
+layout(constant_id = 59) const bool HIT_NORMAL_MAPS = true;
 
 layout(set = SET_scene, binding = SCENE_HIT_MATERIALS) uniform utexture2D hit_materials;
 
@@ -21,9 +23,7 @@ struct HitSurface {
 };
 
 uvec4 hit_material(uint material, uint row) {
-    uint column = material & ((1u << MATERIALS_PER_ROW_LOG2) - 1u);
-    uint texel = (column << MATERIAL_RECORD_LOG2) + row;
-    return texelFetch(hit_materials, ivec2(texel, material >> MATERIALS_PER_ROW_LOG2), 0);
+    return texelFetch(hit_materials, in_records(material, row), 0);
 }
 
 vec3 halves(uvec2 words) { return vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x); }
@@ -45,8 +45,10 @@ vec3 hit_sample(HitTexture texture, vec2 uv) {
     return mix(upper, mix(halves(bottom.xy), halves(bottom.zw), s.x), s.y);
 }
 
-// A material's constants, with its textures' values in the place of some.
-HitMaterial material_at(uint material, vec2 uv) {
+// A material's constants, with its textures' values in the place of some, and the texel of its normal map;
+// w of it: whether there is one.
+HitMaterial material_at(uint material, vec2 uv, out vec4 normal_texel) {
+    normal_texel = vec4(0.0);
     uvec4 color = hit_material(material, 0u);
     uvec4 specular = hit_material(material, 1u);
     vec4 a = uintBitsToFloat(hit_material(material, 2u));
@@ -73,6 +75,7 @@ HitMaterial material_at(uint material, vec2 uv) {
         if (p == 10u) m.clearcoat = value.x;
         if (p == 11u) m.clearcoat_gloss = value.x;
         if (p == 12u) m.subsurface = value.x;
+        if (p == 13u) normal_texel = vec4(value, 1.0);
     }
     return m;
 }
@@ -115,18 +118,19 @@ HitSurface hit_surface(Hit hit, vec3 direction) {
     mat3 normals = mat3(uintBitsToFloat(na.xyz), uintBitsToFloat(nb.xyz), uintBitsToFloat(nc.xyz));
 
     uint surface = na.w;
-    vec3 t = vec3(0.0);
-    if (ANISOTROPIC) {
+    vec4 t = vec4(0.0);
+    if (ANISOTROPIC || HIT_NORMAL_MAPS) {
         uint place = (surface & HIT_TANGENTS) != 0u ? surface & ~HIT_TANGENTS : 0u;
         uvec4 ta = hit_texel(place);
-        vec3 tb = uintBitsToFloat(hit_texel(place + 1u).xyz);
+        vec4 tb = uintBitsToFloat(hit_texel(place + 1u));
         vec3 tc = uintBitsToFloat(hit_texel(place + 2u).xyz);
         if (place != 0u) {
-            t = weights.x * uintBitsToFloat(ta.xyz) + weights.y * tb + weights.z * tc;
+            t = vec4(weights.x * uintBitsToFloat(ta.xyz) + weights.y * tb.xyz + weights.z * tc, tb.w);
             surface = ta.w;
         }
     }
-    HitMaterial material = material_at(surface & ((1u << HIT_MATERIAL_BITS) - 1u), uv);
+    vec4 normal_texel;
+    HitMaterial material = material_at(surface & ((1u << HIT_MATERIAL_BITS) - 1u), uv, normal_texel);
     bool two_sided = (material.kind & HIT_TWO_SIDED) != 0u;
 
     HitSurface s;
@@ -135,12 +139,18 @@ HitSurface hit_surface(Hit hit, vec3 direction) {
     vec3 n = normals * weights;
     // Normals that cancel between corners have no direction.
     n = dot(n, n) > 1e-20 ? normalize(n) : vec3(0.0, 1.0, 0.0);
-    n = two_sided && dot(n, direction) > 0.0 ? -n : n;
-    vec3 tangent = tangent_to(n, t);
+    float turn = two_sided && dot(n, direction) > 0.0 ? -1.0 : 1.0;
+    vec3 along = tangent_to(n, t.xyz);
+    if (HIT_NORMAL_MAPS && normal_texel.w > 0.0) {
+        n = mapped_normal(n, t, normal_texel.xyz, turn, -direction);
+    } else {
+        n *= turn;
+    }
+    vec3 tangent = tangent_to(n, along);
     s.world_from_local = mat3(tangent, cross(n, tangent), n);
     s.model = material.kind & ((1u << HIT_MODEL_BITS) - 1u);
     // A tangent of length 0 has no direction to stretch along.
-    s.parameters = parameters_of(material, dot(t, t) > 0.0 ? material.aspect : 1.0);
+    s.parameters = parameters_of(material, dot(t.xyz, t.xyz) > 0.0 ? material.aspect : 1.0);
     s.drawn = hit.triangle != NO_HIT && (surface & HIT_LUMINAIRE) == 0u && (hit.front || two_sided);
     return s;
 }

@@ -7,8 +7,7 @@
 layout(set = SET_scene, binding = SCENE_HITS) uniform utexture2D hit_texels;
 
 uvec4 hit_texel(uint index) {
-    ivec2 texel = ivec2(index & ((1u << BVH_WIDTH_LOG2) - 1u), index >> BVH_WIDTH_LOG2);
-    return texelFetch(hit_texels, texel, 0);
+    return texelFetch(hit_texels, in_rows(index, BVH_WIDTH_LOG2), 0);
 }
 
 struct Hit {
@@ -26,17 +25,12 @@ uint hit_order(BvhHeader header, vec3 direction) {
 
 // Takes a triangle that is nearer, and of two as near the one that comes first in the tree: the same hit in any order.
 void nearer(BvhRay ray, uint texel, inout Hit hit) {
-    uvec4 a = bvh_texel(texel);
-    vec3 b = uintBitsToFloat(bvh_texel(texel + 1u).xyz);
-    vec3 c = uintBitsToFloat(bvh_texel(texel + 2u).xyz);
     vec3 weights;
     float scaled;
-    bool met = triangle_met(ray, uintBitsToFloat(a.xyz), b, c, weights, scaled);
+    bool met = triangle_hides(ray, texel, weights, scaled);
     float sum = weights.x + weights.y + weights.z;
     float t = scaled / abs(sum);
-    met = met && (t < hit.t || (t == hit.t && texel < hit.triangle));
-    if (OCCLUDER_MASKS) met = met && (a.w == 0u || mask_holds(a.w, weights));
-    if (met) {
+    if (met && (t < hit.t || (t == hit.t && texel < hit.triangle))) {
         vec3 axis = ray.shear[2];
         hit = Hit(t, texel, weights.yz / sum, sum * (axis.x + axis.y + axis.z) > 0.0);
     }

@@ -5,6 +5,7 @@
 
 #include "bind/frame.glsl"
 #include "bind/slots.glsl"
+#include "lib/rows.glsl"
 
 layout(set = SET_frame, binding = FRAME_DEPTH) uniform texture2D depth_texture;
 layout(set = SET_frame, binding = FRAME_SURFACE) uniform utexture2D surface_texture;
@@ -31,9 +32,7 @@ vec3 window_position() { return in_window; }
 
 // A texture, not a uniform block: neighbouring pixels may have different materials.
 vec3 parameter(uint row, uint slot) {
-    uint column = in_material & ((1u << MATERIALS_PER_ROW_LOG2) - 1u);
-    uint texel = (column << MATERIAL_RECORD_LOG2) + row;
-    return texelFetch(material_records, ivec2(texel, in_material >> MATERIALS_PER_ROW_LOG2), 0).xyz;
+    return texelFetch(material_records, in_records(in_material, row), 0).xyz;
 }
 
 // No variant that comes here has a normal map.

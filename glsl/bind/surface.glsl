@@ -20,22 +20,11 @@ layout(constant_id = 9) const bool PERSPECTIVE = true;
 #include "lib/cluster.glsl"
 #include "lib/frame.glsl"
 
-// Intensities end at 1e18, so a single light cannot overflow; the sum of a million can, and infinity is no radiance.
-const vec3 MAX_RADIANCE = vec3(1e30);
-
 struct Surface {
     vec3 position;  // world
     mat3 world_from_local;  // columns: tangent, bitangent, normal
     Bsdf bsdf;
 };
-
-// A normal map's normal bent just far enough to face the viewer: one that faces away belongs to a bump's far side,
-// which the viewer cannot see, and would leave a black hole.
-vec3 facing(vec3 n, vec3 wo) {
-    const float least = 0.01;
-    float away = least - dot(n, wo);
-    return away > 0.0 ? normalize(n + away * wo) : n;
-}
 
 // Tangent, bitangent, normal. A two-sided surface's interpolated normal is turned to the viewer by its own cosine,
 // not by the triangle's facing: at the silhouette of a smooth mesh the two differ, and a normal turned away would
@@ -52,21 +41,22 @@ mat3 shading_frame(vec3 wo) {
     }
     vec3 t = tangent_to(n, in_tangent.xyz);
     if (SLOT_NORMAL != NO_TEXTURE) {
-        vec3 m = normal_texel() * 2.0 - 1.0;
-        float handed = in_tangent.w < 0.0 ? -1.0 : 1.0;
-        vec3 mapped = m.x * t + m.y * handed * cross(n, t) + m.z * n;
-        if (dot(mapped, mapped) > 1e-12 && dot(in_tangent.xyz, in_tangent.xyz) > 0.0) {
-            n = turn * facing(turn * normalize(mapped), wo);
-        }
+        n = mapped_normal(n, in_tangent, normal_texel(), turn, wo);
+    } else {
+        n *= turn;
     }
-    n *= turn;
     t = tangent_to(n, t);
     return mat3(t, cross(n, t), n);
 }
 
-// As `reference::shading` has it: roughness or alpha, stretched by the aspect, at least 1e-3.
-vec2 alphas(float roughness) {
-    float alpha = SQUARED_ROUGHNESS ? roughness * roughness : roughness;
+// The number that the material gives: perceptual roughness, or alpha.
+vec2 roughness_and_alpha() {
+    float value = parameter(2u, SLOT_ROUGHNESS).x;
+    return SQUARED_ROUGHNESS ? vec2(value, value * value) : vec2(sqrt(max(value, 0.0)), value);
+}
+
+// As `reference::shading` has it: stretched by the aspect, at least 1e-3.
+vec2 alphas(float alpha) {
     float aspect = 1.0;
     if (ANISOTROPIC) {
         aspect = parameter(3u, SLOT_ASPECT).x;
@@ -81,8 +71,9 @@ BsdfParameters surface_parameters() {
     BsdfParameters p;
     p.color = parameter(0u, SLOT_COLOR);
     p.specular = parameter(1u, SLOT_SPECULAR);
-    p.roughness = parameter(2u, SLOT_ROUGHNESS).x;
-    vec2 a = alphas(p.roughness);
+    vec2 rough = roughness_and_alpha();
+    p.roughness = rough.x;
+    vec2 a = alphas(rough.y);
     p.alpha_x = a.x;
     p.alpha_y = a.y;
     p.sigma = parameter(4u, SLOT_SIGMA).x;

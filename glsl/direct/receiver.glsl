@@ -4,6 +4,7 @@
 
 #include "bind/bvh.glsl"
 #include "bind/ltc.glsl"
+#include "bind/plane.glsl"
 #include "bind/surface.glsl"
 #include "direct/albedo.glsl"
 #include "lib/area/proxy.glsl"
@@ -52,17 +53,8 @@ Proxy receiver_proxy(Receiver r, uint lobe) {
     return lobe == LOBE_DIFFUSE ? r.diffuse.proxy : lobe == LOBE_SPECULAR ? r.specular.proxy : r.coat.proxy;
 }
 
-// Off the triangle, on the viewer's side. Its normal is that of the plane of the pixel and its neighbours, which all lie
-// on the one triangle.
-vec3 shadow_origin(vec3 p) {
-    vec3 normal = cross(dFdx(p), dFdy(p));
-    float length2 = dot(normal, normal);
-    vec3 wo = view_direction();
-    normal = length2 > 0.0 ? normal * inversesqrt(length2) : wo;
-    vec3 coordinates = abs(p);
-    float scale = max(max(coordinates.x, max(coordinates.y, coordinates.z)), distance(p, frame.eye));
-    return offset_origin(p, dot(normal, wo) < 0.0 ? -normal : normal, scale);
-}
+// Off the triangle, on the viewer's side.
+vec3 seen_origin(vec3 p) { return offset_origin(p, plane_normal(p, view_direction()), distance(p, frame.eye)); }
 
 Receiver receiver_here() {
     Receiver r;
@@ -88,7 +80,7 @@ Receiver receiver_here() {
         r.coat = coat_lobe(lerp(0.1, 0.001, p.clearcoat_gloss), wo, cos_o);
         r.narrowest = min(r.narrowest, r.coat.width);
     }
-    if (SHADOWS) r.shadow_origin = shadow_origin(r.surface.position);
+    if (SHADOWS) r.shadow_origin = seen_origin(r.surface.position);
     return r;
 }
 

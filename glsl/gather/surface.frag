@@ -7,6 +7,7 @@
 #include "bind/lights.glsl"
 #include "bind/fragment.glsl"
 #include "lib/light.glsl"
+#include "bind/plane.glsl"
 #include "bind/surface.glsl"
 #include "gather/words.glsl"
 
@@ -14,18 +15,10 @@ layout(location = 0) out uvec4 words_a;
 layout(location = 1) out uvec4 words_b;
 layout(location = 2) out uvec4 words_c;
 
-// Of the plane of the pixel and its neighbours, which all lie on the one triangle.
-vec3 geometric_normal(vec3 p, vec3 wo) {
-    vec3 normal = cross(dFdx(p), dFdy(p));
-    float length2 = dot(normal, normal);
-    normal = length2 > 0.0 ? normal * inversesqrt(length2) : wo;
-    return dot(normal, wo) < 0.0 ? -normal : normal;
-}
-
 void main() {
     vec3 wo = view_direction();
     PackedBsdf bsdf = bsdf_pack(surface_parameters(), MODEL);
-    SurfaceWords words = pack_surface(bsdf, shading_frame(wo), geometric_normal(surface_position(), wo));
+    SurfaceWords words = pack_surface(bsdf, shading_frame(wo), plane_normal(surface_position(), wo));
     words_a = words.a;
     words_b = words.b;
     words_c = words.c;

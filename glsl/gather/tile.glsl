@@ -3,6 +3,8 @@
 #ifndef GATHER_TILE_GLSL
 #define GATHER_TILE_GLSL
 
+#include "gather/trees.glsl"
+
 const uint ROWS = GATHER_PIXELS / GATHER_SIDE;
 const uint HALVES = 2u;
 

@@ -4,12 +4,12 @@
 #define GATHER_TREES_GLSL
 
 #include "lib/octahedron.glsl"
+#include "lib/rows.glsl"
 
 layout(set = SET_gather, binding = GATHER_LIGHTS) uniform utexture2D gathered_lights;
 
 uvec4 gathered_texel(uint index) {
-    ivec2 texel = ivec2(index & ((1u << GATHERED_WIDTH_LOG2) - 1u), index >> GATHERED_WIDTH_LOG2);
-    return texelFetch(gathered_lights, texel, 0);
+    return texelFetch(gathered_lights, in_rows(index, GATHERED_WIDTH_LOG2), 0);
 }
 
 // What is lit: places in a box, with normals in a cone.

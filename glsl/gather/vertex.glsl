@@ -1,19 +1,11 @@
-// A vertex of a path: a surface, and how it reflects. Models are values here, not constants: neighbouring pixels, and the
-// places that their paths come to, have different ones.
+// A vertex of a path: a surface, and how it reflects. Neighbouring pixels, and the places that their paths come to, have
+// different models.
 #ifndef GATHER_VERTEX_GLSL
 #define GATHER_VERTEX_GLSL
 
-layout(constant_id = 1) const bool ANISOTROPIC = true;
 layout(constant_id = 57) const bool GATHER_LAMBERT = false;
 
-uint surface_model;
-#define MODEL surface_model
-#define ROUGH_MATTE true
-#define LOBE_SHEEN true
-#define LOBE_CLEARCOAT true
-#define LOBE_SUBSURFACE true
-#define LOBE_METALLIC true
-
+#include "lib/bsdf/mixed.glsl"
 #include "lib/bsdf.glsl"
 #include "lib/bsdf/lambert.glsl"
 #include "lib/bsdf/sample.glsl"
@@ -41,7 +33,7 @@ Vertex vertex_at(
     v.bsdf = bsdf_setup(p, local);
     v.sampling = bsdf_sampling(p, local);
     v.taken = vec3(0.0);
-    v.is_lambert = MODEL == MODEL_MATTE && p.sigma == 0.0;
+    v.is_lambert = IS_MODEL(MODEL_MATTE) && p.sigma == 0.0;
     return v;
 }
 

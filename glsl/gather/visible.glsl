@@ -35,7 +35,7 @@ Vertex visible_at(ivec2 pixel) {
     vec3 position = seen_position(pixel);
     vec3 wo = PERSPECTIVE ? normalize(frame.eye - position) : -frame.forward;
     vec3 geometric = unpack_unit(words.c.w);
-    vec3 origin = offset_origin(position, geometric, max(greatest(abs(position)), distance(position, frame.eye)));
+    vec3 origin = offset_origin(position, geometric, distance(position, frame.eye));
     return vertex_at(position, origin, geometric, frame_words(words), bsdf_unpack(bsdf), wo);
 }
 

@@ -6,6 +6,8 @@
 #ifndef LIB_BVH_GLSL
 #define LIB_BVH_GLSL
 
+#include "lib/math.glsl"
+
 struct BvhRay {
     vec3 origin;
     // In cells of the nodes' grid: the origin with and without what it may be off by, and the direction's reciprocal,
@@ -95,9 +97,9 @@ bool triangle_met(BvhRay ray, vec3 a, vec3 b, vec3 c, out vec3 weights, out floa
 }
 
 // A start for rays that leave a surface at `p`, moved along the unit geometric normal `n` of the side they leave from.
-// `scale` is the largest number that went into `p`: its own largest coordinate, and its distance from the eye where it
-// was found from a depth. The move of 2⁻¹⁹ of that, some ten roundings, is more than float32 can have put `p` beside
-// the surface; triangle_met() allows for the rounding of the rest, so t_min may be 0.
-vec3 offset_origin(vec3 p, vec3 n, float scale) { return p + n * (scale * 1.9073486e-6); }
+// `way` is how far `p` was found along a ray or from the eye: that and its coordinates are the numbers that went into it.
+// The move of 2⁻¹⁹ of the largest, some ten roundings, is more than float32 can have put `p` beside the surface;
+// triangle_met() allows for the rounding of the rest, so t_min may be 0.
+vec3 offset_origin(vec3 p, vec3 n, float way) { return p + n * (max(greatest(abs(p)), way) * 1.9073486e-6); }
 
 #endif

@@ -7,12 +7,15 @@
 
 layout(set = SET_frame, binding = FRAME_HDR, input_attachment_index = 0) uniform subpassInput hdr;
 layout(set = SET_frame, binding = FRAME_GATHERED) uniform texture2DArray gathered_light;
+layout(constant_id = 55) const bool GATHER_POINTS = true;
+layout(constant_id = 56) const bool GATHER_INDIRECT = true;
 layout(push_constant, std430) uniform PushBlock { DrawConstants draw; };
 layout(location = 0) out vec4 color;
 
 void main() {
     vec3 gathered = vec3(0.0);
-    for (int layer = 0; layer < int(2u * GATHER_SUBSETS); ++layer) {
+    uint kinds = uint(GATHER_POINTS) + uint(GATHER_INDIRECT);
+    for (int layer = 0; layer < int(kinds * GATHER_SUBSETS); ++layer) {
         gathered += texelFetch(gathered_light, ivec3(gl_FragCoord.xy, layer), 0).rgb;
     }
     // The share of a pixel that paths take off what was gathered may outweigh it while frames are few.

@@ -7,15 +7,7 @@
 
 layout(constant_id = 70) const uint BSDF_PROBE = BSDF_PROBE_EVAL;
 
-uint surface_model;
-#define MODEL surface_model
-#define ANISOTROPIC true
-#define ROUGH_MATTE true
-#define LOBE_SHEEN true
-#define LOBE_CLEARCOAT true
-#define LOBE_SUBSURFACE true
-#define LOBE_METALLIC true
-
+#include "lib/bsdf/mixed.glsl"
 #include "lib/bsdf.glsl"
 #include "lib/bsdf/lambert.glsl"
 #include "lib/bsdf/packed.glsl"

@@ -19,6 +19,6 @@ void main() {
         return;
     }
     RayProbeRow row = rows[i];
-    vec3 origin = offset_origin(row.origin, row.normal, row.scale);
+    vec3 origin = offset_origin(row.origin, row.normal, row.way);
     values[i] = uint(occluded(origin, row.direction, row.t_min, row.t_max));
 }

@@ -21,7 +21,7 @@ void main() {
         return;
     }
     RayProbeRow row = rows[i];
-    vec3 origin = offset_origin(row.origin, row.normal, row.scale);
+    vec3 origin = offset_origin(row.origin, row.normal, row.way);
     Hit hit = nearest_hit(origin, row.direction, row.t_max);
     HitSurface s = hit_surface(hit, row.direction);
     BsdfParameters p = s.parameters;

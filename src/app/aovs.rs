@@ -91,9 +91,11 @@ impl Source<'_> {
     pub(super) fn save(&self, frame: &mut Frame, aovs: &[AovOutput], index: u32) -> Result<()> {
         let [width, height] = self.scene.render.size;
         let image = |pixels| HdrImage { width, height, pixels };
-        let [indirect, points] = frame
-            .gathered_light()?
-            .unwrap_or_else(|| [HdrImage::new(width, height), HdrImage::new(width, height)]);
+        // Of all samples, and so fetched before the picture starts anew.
+        let lights = aovs.iter().any(|aov| matches!(aov.variable, Variable::Direct | Variable::Indirect));
+        let gathered = if lights { frame.gathered_light()? } else { None };
+        let [indirect, points] =
+            gathered.unwrap_or_else(|| [HdrImage::new(width, height), HdrImage::new(width, height)]);
         // Variables are those of the pixel's centre, and of light alone.
         if self.scene.render.samples > 1 && !aovs.is_empty() {
             frame.render(&self.inputs(1))?;

@@ -2,13 +2,13 @@
 
 mod baseline;
 mod figures;
-mod interrupt;
 mod load;
 mod statistics;
 mod subject;
 mod suites;
 
 use super::args::{BenchOptions, SceneOptions};
+use super::interrupt::Interrupt;
 use super::measure::{MEGABYTE, peak_host_memory};
 use super::outputs::{check_distinct, check_folder, same_file};
 use super::report::{self, Origin};
@@ -17,7 +17,6 @@ use crate::error::{Error, Result};
 use baseline::{Baseline, print_comparisons};
 use figures::{Figures, Loads, Point};
 use indicatif::{ProgressBar, ProgressStyle};
-use interrupt::Interrupt;
 use load::Since;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};

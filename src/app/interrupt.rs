@@ -1,4 +1,4 @@
-//! Ctrl-C: the first ends a measurement after the frame at hand, the second the program.
+//! Ctrl-C: the first ends what takes long after the frame at hand, and what is done is kept; the second ends the program.
 
 use crate::error::{Error, Result};
 use signal_hook::consts::{SIGINT, SIGTERM};

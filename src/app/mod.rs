@@ -10,6 +10,7 @@ mod false_color;
 mod fit;
 mod fit_maps;
 mod info;
+mod interrupt;
 mod measure;
 mod outputs;
 mod reference;

@@ -5,15 +5,15 @@ use super::args::RenderOptions;
 use super::outputs::{
     Kind, check_distinct, check_folder, check_frames, check_picture, check_single, frame_path, kind,
 };
-use super::refine::{Goal, Rounds, refine};
+use super::refine::Refining;
 use super::report::{self, Report};
-use super::terminal::{complain, print};
 use super::{FRAME_RATE, camera, in_scene, load_scene};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings};
 use crate::gpu::{Device, Options};
 use crate::gpu_scene::GpuScene;
 use crate::image::save_png8;
+use crate::refine::Rounds;
 use indicatif::ProgressBar;
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -37,7 +37,8 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let frames = options.frames.clone().unwrap_or(0..1);
     let bar = progress(frames.len() as u64 * u64::from(scene.render.samples));
     let mut timings = Vec::new();
-    let mut error = None;
+    let mut rounds = None;
+    let mut refining = Refining::start(&options.refine, frame.gathers())?;
     for index in frames {
         let time = f64::from(index) / FRAME_RATE;
         let placed = if options.frames.is_some() { camera.at(time) } else { camera.clone() };
@@ -50,18 +51,21 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
             progress: bar.clone(),
         };
         let mut taken = frame.render(&inputs)?;
-        if frame.gathers().anything() {
-            let rounds = Rounds::new(&scene, gpu_scene.origin, frame.gathers(), time);
-            let goal = Goal { error: options.refine.indirect_error, time_limit: options.refine.time_limit };
-            let (refining, left) = refine(&mut frame, &rounds, &device, &inputs, goal)?;
-            taken.add(&refining);
-            error = left;
-            tell_error(frame.gathered(), goal, left)?;
+        if let Some(refining) = &mut refining {
+            if gpu_scene.moves() {
+                rounds = None;
+            }
+            let made = || Rounds::new(&scene, gpu_scene.origin, frame.gathers(), time);
+            let rounds = rounds.get_or_insert_with(made);
+            taken.add(&refining.refine(&mut frame, rounds, &device, &inputs)?);
         }
         timings.push(taken);
         save(&frame, settings.size, (&outputs, index))?;
         let source = Source { device: &device, gpu_scene: &gpu_scene, scene: &scene, camera: &placed, time };
         source.save(&mut frame, &aovs, index)?;
+        if refining.as_ref().is_some_and(Refining::interrupted) {
+            break;
+        }
     }
     bar.finish_and_clear();
     report::warn_of_overflow(&frame.counters(), settings.max_lights_per_cluster);
@@ -72,10 +76,12 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         &report::passes(&timings, &timings),
         &timings,
     )?;
+    let error = refining.as_ref().map_or(Some(0.0), Refining::worst);
     if let Some(path) = &options.report {
         report::save(path, &Report::new(&device, &scene, &frame, (&timings, error))?)?;
     }
-    device.require_silence()
+    device.require_silence()?;
+    refining.map_or(Ok(()), Refining::end)
 }
 
 fn check_outputs(options: &RenderOptions, outputs: &[PathBuf], aovs: &[AovOutput]) -> Result<()> {
@@ -94,20 +100,6 @@ fn progress(samples: u64) -> ProgressBar {
     } else {
         ProgressBar::hidden()
     }
-}
-
-/// Says how far gathered light has come, and where a time limit ended it early.
-fn tell_error(frames: u32, goal: Goal, error: Option<f64>) -> Result<()> {
-    let percent = |share: f64| format!("{:.2} %", 100.0 * share);
-    let known = error.map_or_else(|| "unknown before two rounds".into(), percent);
-    print(format_args!("gathered light: {frames} frames, estimated error {known} of the picture's mean"))?;
-    if error.is_none_or(|error| error > goal.error) {
-        complain(format_args!(
-            "warning: the time limit came before the error was below {}\n  remedy: raise --time-limit, or --indirect-error",
-            percent(goal.error)
-        ));
-    }
-    Ok(())
 }
 
 fn save(frame: &Frame, [width, height]: [u32; 2], (outputs, index): (&[PathBuf], u32)) -> Result<()> {

@@ -128,7 +128,7 @@ pub(super) struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    /// The report of frames that took `timings`; pairs are those of the last, as is the error of gathered light.
+    /// The report of frames that took `timings`, and the largest error of gathered light; pairs are those of the last.
     pub(super) fn new(
         device: &'a Arc<Device>,
         scene: &Scene,
@@ -156,7 +156,7 @@ impl<'a> Report<'a> {
             },
             error_estimate: ErrorEstimate {
                 light_relative: frame.light_error()?,
-                indirect_relative: if frame.gathers().anything() { gathered_error } else { Some(0.0) },
+                indirect_relative: gathered_error,
             },
             clusters,
             validation_messages: device.validation_messages().map(|messages| messages.len()),

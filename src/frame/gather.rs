@@ -3,7 +3,7 @@
 use super::timing::Stopwatch;
 use super::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::error::Result;
-use crate::gpu::{Device, Use};
+use crate::gpu::Use;
 use crate::gpu_scene::GpuScene;
 use crate::image::HdrImage;
 use crate::passes::PassInputs;
@@ -12,7 +12,6 @@ use crate::passes::gather::{Gather, Gathered, GatheredLights};
 use crate::shared::{GATHER_FRAMES, GATHER_SIDE, GATHER_SUBSETS};
 use crate::targets::Targets;
 use rayon::prelude::*;
-use std::sync::Arc;
 
 const SUBSETS: usize = GATHER_SUBSETS as usize;
 /// Vertices of paths that one submission to a GPU has at most.
@@ -20,16 +19,36 @@ const PATHS_A_SUBMISSION: u32 = 1 << 22;
 /// Pixels that one task looks at.
 const PART: usize = 4096;
 
-/// Sums of gathered light, as fetched.
+/// Sums of gathered light, as fetched: a layer for each subset of indirect light, then of point lights, of what there is.
 struct Sums {
     texels: Vec<[f32; 4]>,
     pixels: usize,
 }
 
 impl Sums {
-    fn of(&self, layer: usize, pixel: usize) -> [f32; 4] {
-        self.texels[layer * self.pixels + pixel]
+    /// Of a pixel's channel: sums of a subset, of every kind of light that there is.
+    fn kinds(&self, subset: usize, pixel: usize, channel: usize) -> impl Iterator<Item = f32> {
+        let layers = (subset..self.texels.len() / self.pixels).step_by(SUBSETS);
+        layers.map(move |layer| self.texels[layer * self.pixels + pixel][channel])
     }
+}
+
+impl Sums {
+    /// Variance of the mean of a pixel's channel, by how subsets of so many frames differ.
+    fn variance(&self, pixel: usize, channel: usize, counts: &[f64]) -> f64 {
+        let sum = |subset| self.kinds(subset, pixel, channel).map(f64::from).sum::<f64>();
+        let all: f64 = counts.iter().sum();
+        let mean = (0..counts.len()).map(sum).sum::<f64>() / all;
+        let spread = |(subset, &count): (usize, &f64)| count * (sum(subset) / count - mean).powi(2);
+        counts.iter().enumerate().map(spread).sum::<f64>() / ((counts.len() - 1) as f64 * all)
+    }
+}
+
+/// Frames of each subset that has any: whole rounds take turns at them, and a frame of a round counts.
+fn frames_of_subsets(frames: u32) -> Vec<f64> {
+    let mut counts = [0.0; SUBSETS];
+    (0..frames).for_each(|frame| counts[(frame / GATHER_FRAMES % GATHER_SUBSETS) as usize] += 1.0);
+    counts.into_iter().filter(|&count| count > 0.0).collect()
 }
 
 impl Frame {
@@ -163,12 +182,13 @@ impl Frame {
 
     fn mean_light(&self, sums: &Sums) -> [HdrImage; 2] {
         let per_frame = 1.0 / self.gathered as f32;
-        [0..SUBSETS, SUBSETS..2 * SUBSETS].map(|layers| {
-            let pixel = |index: usize| {
-                let sum =
-                    |channel: usize| layers.clone().map(|layer| sums.of(layer, index)[channel]).sum::<f32>();
-                [0, 1, 2].map(|channel| sum(channel) * per_frame)
+        let Gathered { indirect, points, .. } = self.work.gathered;
+        [(indirect, 0), (points, usize::from(indirect))].map(|(there, kind)| {
+            let sum = |pixel, channel| {
+                let of_subset = |subset| sums.kinds(subset, pixel, channel).nth(kind).filter(|_| there);
+                (0..SUBSETS).filter_map(of_subset).sum::<f32>() * per_frame
             };
+            let pixel = |pixel: usize| [0, 1, 2].map(|channel| sum(pixel, channel));
             self.image((0..sums.pixels).into_par_iter().map(pixel).collect())
         })
     }
@@ -176,7 +196,8 @@ impl Frame {
     fn sums(&self) -> Result<Option<Sums>> {
         let Some(gather) = self.gather.as_ref().filter(|_| self.gathered > 0) else { return Ok(None) };
         let texels: Vec<[f32; 4]> = gather.sums().fetch(Use::FragmentRead, Use::FragmentRead)?;
-        Ok(Some(Sums { pixels: texels.len() / (2 * SUBSETS), texels }))
+        let [width, height] = self.settings.size;
+        Ok(Some(Sums { texels, pixels: (width * height) as usize }))
     }
 
     /// Estimated relative error of the picture that comes of gathered light: the root of the mean square over pixels of its
@@ -185,30 +206,14 @@ impl Frame {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn gathered_error(&self) -> Result<Option<f64>> {
-        let rounds = self.gathered / GATHER_FRAMES;
-        let Some(sums) = self.sums()?.filter(|_| rounds >= 2) else { return Ok(None) };
-        // Frames of each subset, and the subsets that have any.
-        let subsets = SUBSETS.min(rounds as usize);
-        let frames = |subset: usize| {
-            let whole = u64::from(self.gathered) / u64::from(GATHER_FRAMES) / SUBSETS as u64;
-            let rest = u64::from(self.gathered) - whole * u64::from(GATHER_FRAMES) * SUBSETS as u64;
-            let own =
-                rest.saturating_sub(subset as u64 * u64::from(GATHER_FRAMES)).min(u64::from(GATHER_FRAMES));
-            (whole * u64::from(GATHER_FRAMES) + own) as f64
-        };
-        let counts: Vec<f64> = (0..subsets).map(frames).collect();
-        let all: f64 = counts.iter().sum();
-        let variance = |pixel: usize, channel: usize| {
-            let layer = |layer: usize| f64::from(sums.of(layer, pixel)[channel]);
-            let sum = |subset: usize| layer(subset) + layer(SUBSETS + subset);
-            let mean = (0..subsets).map(sum).sum::<f64>() / all;
-            let spread = |subset: usize| counts[subset] * (sum(subset) / counts[subset] - mean).powi(2);
-            (0..subsets).map(spread).sum::<f64>() / ((subsets - 1) as f64 * all)
-        };
+        let counts = frames_of_subsets(self.gathered);
+        let Some(sums) = self.sums()?.filter(|_| self.gathered >= 2 * GATHER_FRAMES) else { return Ok(None) };
         // Parts of a fixed size, so that the sum is the same on any number of threads.
         let part = |first: usize| -> f64 {
             let pixels = first..sums.pixels.min(first + PART);
-            pixels.map(|pixel| (0..3).map(|channel| variance(pixel, channel)).sum::<f64>()).sum()
+            pixels
+                .map(|pixel| (0..3).map(|channel| sums.variance(pixel, channel, &counts)).sum::<f64>())
+                .sum()
         };
         let firsts: Vec<usize> = (0..sums.pixels).step_by(PART).collect();
         let variance: f64 = firsts.into_par_iter().map(part).collect::<Vec<_>>().iter().sum();
@@ -233,19 +238,5 @@ pub(super) fn wanted(scene: &GpuScene, settings: &FrameSettings) -> Gathered {
 }
 
 pub(super) fn pass(inputs: &PassInputs<'_>, targets: &Targets, wanted: Gathered) -> Result<Option<Gather>> {
-    let pass = wanted.anything().then(|| Gather::new(inputs, targets, wanted)).transpose()?;
-    if let Some(gather) = &pass {
-        blacken(inputs.device, gather)?;
-    }
-    Ok(pass)
-}
-
-/// Makes the sums black: the present subpass reads them before anything is gathered.
-pub(super) fn blacken(device: &Arc<Device>, gather: &Gather) -> Result<()> {
-    device.run("gathered light", |cmd| {
-        cmd.transition(gather.sums(), Use::Nothing, Use::TransferWrite);
-        cmd.clear(gather.sums());
-        cmd.transition(gather.sums(), Use::TransferWrite, Use::FragmentRead);
-        Ok(())
-    })
+    wanted.anything().then(|| Gather::new(inputs, targets, wanted)).transpose()
 }

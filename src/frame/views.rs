@@ -4,7 +4,7 @@ use super::{Frame, pass_inputs};
 use crate::error::Result;
 use crate::passes::aov::{Aov, Quantity};
 #[cfg(feature = "viewer")]
-use crate::passes::{develop::Develop, present::Looks};
+use crate::passes::{develop::Develop, gather::Gathered, present::Looks};
 
 impl Frame {
     /// Compiles the pass of one quantity, for [`Frame::draw_aov`]; it fits the frame until that changes its size.
@@ -46,7 +46,7 @@ impl Frame {
     #[cfg(feature = "viewer")]
     pub fn develop_pass(&self) -> Result<Develop> {
         let inputs = pass_inputs(&self.device, &self.scene, &self.settings);
-        let looks = Looks { gathered: false, ..self.work.looks() };
+        let looks = Looks { gathered: Gathered::default(), ..self.work.looks() };
         Develop::new(&inputs, looks, self.settings.size)
     }
 

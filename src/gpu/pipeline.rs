@@ -25,6 +25,13 @@ impl Specialization {
         self
     }
 
+    /// Sets several.
+    #[must_use]
+    pub fn with_all(mut self, constants: &[(u32, u32)]) -> Self {
+        self.0.extend_from_slice(constants);
+        self
+    }
+
     /// The constants set so far.
     #[must_use]
     pub fn values(&self) -> &[(u32, u32)] {

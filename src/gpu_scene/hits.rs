@@ -6,18 +6,16 @@ mod texels;
 
 use crate::bvh::{Bvh, Texel};
 use crate::error::Result;
-use crate::gpu::{DescriptorSet, Device, Format, Image, ImageDescription, Use};
+use crate::gpu::{DescriptorSet, Device, Image, Use};
 use crate::scene::Scene;
 use crate::shared::{self, BVH_WIDTH_LOG2};
-use materials::{Materials, is_anisotropic};
+use materials::Materials;
 use std::sync::Arc;
 use surfaces::Surfaces;
 use texels::Heap;
 
 /// The textures that `glsl/bind/hit.glsl` reads.
 pub struct Hits {
-    /// Specialisation constants of what calls `hit_surface`, beside those of the occluders.
-    pub specialization: Vec<(u32, u32)>,
     /// `None` where nothing may ask.
     materials: Option<Materials>,
     texels: Image,
@@ -34,20 +32,17 @@ impl Hits {
         let mut texels: Vec<Texel> = bytemuck::cast_slice(&bvh.ordered_nodes()).to_vec();
         Surfaces::new(scene, bvh, texels.len()).append(&mut texels);
         let heap = Heap::append(scene, &mut texels);
-        texels.resize(texels.len().next_multiple_of(1 << BVH_WIDTH_LOG2).max(1 << BVH_WIDTH_LOG2), [0; 4]);
         let materials = Materials::new(scene, heap);
-        let hits = Self {
-            specialization: vec![(
-                shared::SPEC_ANISOTROPIC,
-                u32::from(scene.materials.iter().any(is_anisotropic)),
-            )],
-            texels: image(device, "hits", 1 << BVH_WIDTH_LOG2, texels.len())?,
-            records: image(device, "materials of hits", materials::WIDTH, materials.texels.len())?,
+        Ok(Self {
+            texels: Image::of_texels(device, "hits", BVH_WIDTH_LOG2, texels)?,
+            records: Image::of_texels(
+                device,
+                "materials of hits",
+                materials::WIDTH_LOG2,
+                materials.texels.clone(),
+            )?,
             materials: Some(materials),
-        };
-        hits.texels.upload(&[&texels], Use::Texture)?;
-        hits.upload_materials()?;
-        Ok(hits)
+        })
     }
 
     /// Of a scene where nothing asks: a texel each.
@@ -55,12 +50,14 @@ impl Hits {
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn none(device: &Arc<Device>) -> Result<Self> {
-        let [texels, records] = [(); 2].map(|()| image(device, "no hits", 1, 1));
-        let hits = Self { specialization: Vec::new(), materials: None, texels: texels?, records: records? };
-        for image in [&hits.texels, &hits.records] {
-            image.upload(&[&[[0_u32; 4]][..]], Use::Texture)?;
-        }
-        Ok(hits)
+        let image = || Image::of_texels(device, "no hits", 0, Vec::new());
+        Ok(Self { materials: None, texels: image()?, records: image()? })
+    }
+
+    /// Whether there is anything that could be asked.
+    #[must_use]
+    pub fn exist(&self) -> bool {
+        self.materials.is_some()
     }
 
     /// Takes a material's constants over from the scene.
@@ -69,14 +66,9 @@ impl Hits {
             None => Ok(()),
             Some(materials) => {
                 materials.set(scene, material);
-                self.upload_materials()
+                self.records.upload(&[&materials.texels], Use::Texture)
             }
         }
-    }
-
-    fn upload_materials(&self) -> Result<()> {
-        let Some(materials) = &self.materials else { return Ok(()) };
-        self.records.upload(&[&materials.texels], Use::Texture)
     }
 
     /// Puts them into a scene's set.
@@ -84,11 +76,4 @@ impl Hits {
         scene.image(shared::scene::SCENE_HITS, &self.texels, Use::Texture);
         scene.image(shared::scene::SCENE_HIT_MATERIALS, &self.records, Use::Texture);
     }
-}
-
-fn image(device: &Arc<Device>, name: &str, width: usize, texels: usize) -> Result<Image> {
-    let size = [width as u32, (texels / width) as u32];
-    let uses = &[Use::TransferWrite, Use::Texture];
-    let format = Format::R32G32B32A32_UINT;
-    Image::new(device, &ImageDescription { name, format, size, layers: None, mips: 1, uses })
 }

@@ -2,7 +2,7 @@
 
 use crate::bvh::Bvh;
 use crate::error::Result;
-use crate::gpu::{DescriptorSet, Device, Format, Image, ImageDescription, Use};
+use crate::gpu::{DescriptorSet, Device, Image, Use};
 use crate::shared::{self, BVH_WIDTH_LOG2};
 use std::sync::Arc;
 
@@ -20,23 +20,9 @@ impl Occluders {
     /// [`crate::Error::Vulkan`] where memory is short, or where there are more triangles than the device's textures hold:
     /// some four million, or sixteen on most.
     pub fn new(device: &Arc<Device>, bvh: &Bvh) -> Result<Self> {
-        let width = 1 << BVH_WIDTH_LOG2;
-        let mut texels = bvh.texels();
-        texels.resize(texels.len().next_multiple_of(width), [0; 4]);
-        let image = Image::new(
-            device,
-            &ImageDescription {
-                name: "occluders",
-                format: Format::R32G32B32A32_UINT,
-                size: [width as u32, (texels.len() / width) as u32],
-                layers: None,
-                mips: 1,
-                uses: &[Use::TransferWrite, Use::Texture],
-            },
-        )?;
-        image.upload(&[&texels], Use::Texture)?;
+        let texels = Image::of_texels(device, "occluders", BVH_WIDTH_LOG2, bvh.texels())?;
         let specialization = vec![(shared::SPEC_OCCLUDER_MASKS, u32::from(bvh.has_masks()))];
-        Ok(Self { specialization, texels: image })
+        Ok(Self { specialization, texels })
     }
 
     /// Puts it into a scene's set.

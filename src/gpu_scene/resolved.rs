@@ -72,7 +72,7 @@ fn shading(variant: &Variant) -> Option<Specialization> {
         return None;
     }
     let kept = values.filter(|(id, _)| *id != MASK && !OF_AREA_LIGHTS.contains(id));
-    Some(kept.fold(Specialization::default(), |all, &(id, value)| all.with(id, value)))
+    Some(Specialization::default().with_all(&kept.copied().collect::<Vec<_>>()))
 }
 
 #[cfg(test)]
@@ -80,8 +80,8 @@ mod tests {
     use super::*;
 
     fn variant(constants: &[(u32, u32)]) -> Variant {
-        let all = constants.iter().fold(Specialization::default(), |all, &(id, value)| all.with(id, value));
-        Variant { masked: false, both_sides: true, specialization: all }
+        let specialization = Specialization::default().with_all(constants);
+        Variant { masked: false, both_sides: true, specialization }
     }
 
     #[test]

@@ -54,7 +54,7 @@ impl Work {
     /// What the present subpass is made for.
     #[must_use]
     pub fn looks(&self) -> Looks {
-        Looks { tonemap: self.tonemap, encoding: self.encoding, gathered: self.gathered.anything() }
+        Looks { tonemap: self.tonemap, encoding: self.encoding, gathered: self.gathered }
     }
 }
 

@@ -17,7 +17,7 @@ use crate::gpu::{
     Commands, ComputePipeline, DescriptorSets, Device, Image, ImageDescription, PipelineLayout,
     Specialization, Use, shaders,
 };
-use crate::shared::{self, GATHER_FRAMES, GATHER_SIDE, GATHER_SUBSETS, GatherConstants};
+use crate::shared::{self, GATHER_SIDE, GATHER_SUBSETS, GatherConstants};
 use crate::targets::{HDR_FORMAT, Targets};
 use std::ops::Range;
 use std::sync::Arc;
@@ -44,6 +44,14 @@ impl Gathered {
     pub fn anything(&self) -> bool {
         self.indirect || self.points
     }
+
+    /// Kinds of light that have layers of their own, as specialisation constants.
+    pub(super) fn kinds(&self) -> [(u32, u32); 2] {
+        [
+            (shared::SPEC_GATHER_POINTS, u32::from(self.points)),
+            (shared::SPEC_GATHER_INDIRECT, u32::from(self.indirect)),
+        ]
+    }
 }
 
 /// Pipelines and images of the pass.
@@ -63,13 +71,12 @@ impl Gather {
     pub fn new(inputs: &PassInputs<'_>, targets: &Targets, what: Gathered) -> Result<Self> {
         let sets = [shared::frame::BINDINGS, shared::scene::BINDINGS, shared::gather::BINDINGS];
         let layout = Arc::new(PipelineLayout::new(inputs.device, &sets)?);
-        let traced = inputs.scene.occluders.specialization.iter().chain(&inputs.scene.hits.specialization);
-        let specialization = traced
-            .fold(Specialization::default(), |all, &(id, value)| all.with(id, value))
+        let specialization = Specialization::default()
+            .with_all(&inputs.scene.occluders.specialization)
+            .with_all(&inputs.scene.models)
             .with(shared::SPEC_PERSPECTIVE, u32::from(inputs.perspective))
             .with(shared::SPEC_GATHER_SHADOWS, u32::from(what.shadows))
-            .with(shared::SPEC_GATHER_POINTS, u32::from(what.points))
-            .with(shared::SPEC_GATHER_INDIRECT, u32::from(what.indirect))
+            .with_all(&what.kinds())
             .with(shared::SPEC_GATHER_LAMBERT, u32::from(what.lambert));
         let gather =
             ComputePipeline::new(inputs.device, &layout, shaders::GATHER_GATHER_COMP, &specialization)?;
@@ -78,7 +85,7 @@ impl Gather {
             surfaces: Surfaces::new(inputs, targets)?,
             gather,
             set: layout.allocate(shared::gather::SET, 1)?,
-            sums: sums(inputs.device, targets.depth.size())?,
+            sums: sums(inputs.device, targets.depth.size(), what)?,
         };
         pass.bind();
         Ok(pass)
@@ -90,7 +97,7 @@ impl Gather {
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn resize(&mut self, device: &Arc<Device>, targets: &Targets) -> Result<()> {
         self.surfaces.resize(device, targets)?;
-        self.sums = sums(device, targets.depth.size())?;
+        self.sums = sums(device, targets.depth.size(), self.what)?;
         self.bind();
         Ok(())
     }
@@ -106,7 +113,8 @@ impl Gather {
         self.set.get(0).image(shared::gather::GATHER_LIGHTS, &lights.image, Use::Texture);
     }
 
-    /// The sums: a layer for each subset of indirect light, then of point lights, in use [`Use::FragmentRead`].
+    /// The sums: a layer for each subset of indirect light, then of point lights, of what there is; in use
+    /// [`Use::FragmentRead`].
     #[must_use]
     pub fn sums(&self) -> &Image {
         &self.sums
@@ -116,9 +124,7 @@ impl Gather {
     pub fn begin(&self, cmd: &mut Commands, view: &View<'_>, index: u32) {
         cmd.labelled("gather surfaces", |cmd| self.surfaces.record(cmd, view));
         if index == 0 {
-            cmd.transition(&self.sums, Use::Nothing, Use::TransferWrite);
-            cmd.clear(&self.sums);
-            cmd.transition(&self.sums, Use::TransferWrite, Use::FragmentRead);
+            clear(cmd, &self.sums);
         }
     }
 
@@ -142,15 +148,12 @@ impl Gather {
         index: u32,
         rows: Range<u32>,
     ) {
-        let round = index / GATHER_FRAMES;
         cmd.labelled("gather", |cmd| {
             cmd.transition(&self.sums, Use::FragmentRead, Use::ComputeWrite);
             cmd.bind_compute(&self.gather, &[view.frame, view.scene.set.get(0), self.set.get(0)]);
             cmd.push(&GatherConstants {
                 bounces: self.what.bounces,
-                frame: index % GATHER_FRAMES,
-                seed: round,
-                subset: round % GATHER_SUBSETS,
+                index,
                 row: rows.start * GATHER_SIDE,
                 ..lights.constants
             });
@@ -160,17 +163,29 @@ impl Gather {
     }
 }
 
-/// The image of the sums.
-fn sums(device: &Arc<Device>, size: [u32; 2]) -> Result<Image> {
-    Image::new(
+/// The image of the sums, black: it is read before anything is gathered.
+fn sums(device: &Arc<Device>, size: [u32; 2], what: Gathered) -> Result<Image> {
+    let kinds = u32::from(what.indirect) + u32::from(what.points);
+    let image = Image::new(
         device,
         &ImageDescription {
             name: "gathered light",
             format: HDR_FORMAT,
             size,
-            layers: Some(2 * GATHER_SUBSETS),
+            layers: Some(kinds * GATHER_SUBSETS),
             mips: 1,
             uses: &[Use::TransferWrite, Use::TransferRead, Use::ComputeWrite, Use::FragmentRead],
         },
-    )
+    )?;
+    device.run("gathered light", |cmd| {
+        clear(cmd, &image);
+        Ok(())
+    })?;
+    Ok(image)
+}
+
+fn clear(cmd: &mut Commands, sums: &Image) {
+    cmd.transition(sums, Use::Nothing, Use::TransferWrite);
+    cmd.clear(sums);
+    cmd.transition(sums, Use::TransferWrite, Use::FragmentRead);
 }

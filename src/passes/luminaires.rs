@@ -38,8 +38,7 @@ impl Luminaires {
         (depth, blend): (DepthTest, Option<Blend>),
         (pass, subpass): (&RenderPass, u32),
     ) -> Result<Self> {
-        let add = |all: Specialization, &(id, value): &(u32, u32)| all.with(id, value);
-        let specialization = constants.iter().fold(Specialization::default(), add);
+        let specialization = Specialization::default().with_all(constants);
         let pipeline = |cull| {
             GraphicsPipeline::new(
                 inputs.device,

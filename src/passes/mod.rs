@@ -73,11 +73,9 @@ impl SurfacePipelines {
             if !wanted(index) {
                 return Ok(None);
             }
-            let mut specialization =
-                variant.specialization.clone().with(shared::SPEC_PERSPECTIVE, u32::from(inputs.perspective));
-            for &(id, value) in extra {
-                specialization = specialization.with(id, value);
-            }
+            let perspective = u32::from(inputs.perspective);
+            let specialization =
+                variant.specialization.clone().with(shared::SPEC_PERSPECTIVE, perspective).with_all(extra);
             GraphicsPipeline::new(
                 inputs.device,
                 &inputs.scene.layout,

@@ -1,5 +1,6 @@
 //! Subpass *present*: reads the HDR colour at its pixel; exposure, tone curve, encoding.
 
+use super::gather::Gathered;
 use super::{PassInputs, View};
 use crate::error::Result;
 use crate::gpu::{
@@ -16,8 +17,8 @@ pub struct Looks {
     pub tonemap: Tonemap,
     /// Encoding of the picture.
     pub encoding: Encoding,
-    /// Whether the frame has gathered light.
-    pub gathered: bool,
+    /// Light of the frame that is gathered.
+    pub gathered: Gathered,
 }
 
 /// The subpass's pipeline.
@@ -38,20 +39,24 @@ impl Present {
             Tonemap::Aces => 1,
             Tonemap::Agx => 2,
         };
+        let mut specialization = Specialization::default()
+            .with(shared::SPEC_TONEMAP, curve)
+            .with(shared::SPEC_ENCODING, encoding as u32);
+        if gathered.anything() {
+            specialization = specialization.with_all(&gathered.kinds());
+        }
         GraphicsPipeline::new(
             inputs.device,
             &inputs.scene.layout,
             &GraphicsDescription {
                 name: "present",
                 vertex: shaders::PRESENT_FULLSCREEN_VERT,
-                fragment: Some(if gathered {
+                fragment: Some(if gathered.anything() {
                     shaders::PRESENT_GATHERED_FRAG
                 } else {
                     shaders::PRESENT_PRESENT_FRAG
                 }),
-                specialization: &Specialization::default()
-                    .with(shared::SPEC_TONEMAP, curve)
-                    .with(shared::SPEC_ENCODING, encoding as u32),
+                specialization: &specialization,
                 vertices: Vertices::None,
                 depth: DepthTest::Off,
                 blend: Some(Blend::Replace),

@@ -54,14 +54,13 @@ impl Estimators {
     pub(crate) fn reflected(&self, [tier, points]: [u32; 2], of: &[Row]) -> Vec<Vec<Vec3>> {
         let rows: Vec<_> = of.iter().map(|row| self.row(row)).collect();
         let closed = tier == shared::TIER_CLOSED_FORM || (tier == shared::TIER_SHIPPED && points > 0);
-        let base = Specialization::default()
+        let constants = Specialization::default()
             .with(shared::SPEC_MODEL, self.model as u32)
             .with(shared::SPEC_CLOSED_FORM, u32::from(closed))
             .with(shared::SPEC_TIER, tier)
             .with(shared::SPEC_TIER_POINTS, points)
-            .with(shared::SPEC_TIER_INVOCATIONS, 1);
-        let constants =
-            self.scene.area.specialization.iter().fold(base, |all, &(id, value)| all.with(id, value));
+            .with(shared::SPEC_TIER_INVOCATIONS, 1)
+            .with_all(&self.scene.area.specialization);
         let pipeline =
             ComputePipeline::new(&self.gpu, &self.layout, shaders::PROBE_AREA_TIER_COMP, &constants).unwrap();
         let input = Buffer::with(&self.gpu, "probe rows", BufferUse::Storage, &rows).unwrap();

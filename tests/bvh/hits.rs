@@ -8,7 +8,7 @@ use amas::gpu_scene::hits::Hits;
 use amas::gpu_scene::occluders::Occluders;
 use amas::reference::rays::{CameraRay, Geometry, Hit, Ray};
 use amas::scene::{self, AreaLight, AreaShape, Luminaire, Material, Mesh, Scene};
-use amas::shared::{HitProbeRow, NO_HIT, RayProbeRow};
+use amas::shared::{HitProbeRow, NO_HIT, RayProbeRow, SPEC_ANISOTROPIC};
 use glam::{DVec3, Vec3, vec3};
 use rayon::prelude::*;
 
@@ -27,10 +27,8 @@ pub(crate) struct Found {
 pub(crate) fn found(gpu: &CheckedGpu, scene: &Scene, origin: Vec3, rows: &[RayProbeRow]) -> Vec<Found> {
     let bvh = Bvh::new(scene, origin);
     let (occluders, hits) = (Occluders::new(gpu, &bvh).unwrap(), Hits::new(gpu, scene, &bvh).unwrap());
-    let specialization = [&occluders.specialization[..], &hits.specialization]
-        .concat()
-        .iter()
-        .fold(Specialization::default(), |all, &(id, value)| all.with(id, value));
+    let specialization =
+        Specialization::default().with_all(&occluders.specialization).with(SPEC_ANISOTROPIC, 1);
     let bind = |set: amas::gpu::DescriptorSet<'_>| {
         occluders.bind(set);
         hits.bind(set);

@@ -13,8 +13,7 @@ use crate::common::square;
 /// What the device says of each ray.
 pub(crate) fn occluded(gpu: &CheckedGpu, scene: &Scene, rows: &[RayProbeRow]) -> Vec<bool> {
     let occluders = Occluders::new(gpu, &Bvh::new(scene, Vec3::ZERO)).unwrap();
-    let masks = occluders.specialization.iter();
-    let masks = masks.fold(Specialization::default(), |all, &(id, value)| all.with(id, value));
+    let masks = Specialization::default().with_all(&occluders.specialization);
     let values: Vec<u32> =
         amas::probe::run_among(gpu, shaders::PROBE_BVH_COMP, &masks, &|scene| occluders.bind(scene), rows)
             .unwrap();

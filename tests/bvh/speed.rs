@@ -136,8 +136,7 @@ fn cpu_time_of_rays() {
             };
             rows.iter().map(towards).collect()
         };
-        let masks = occluders.specialization.iter();
-        let masks = masks.fold(Specialization::default(), |all, &(id, value)| all.with(id, value));
+        let masks = Specialization::default().with_all(&occluders.specialization);
         println!("{name}: {} triangles", bvh.triangles().len());
         for (kind, rows) in [("coherent", &coherent), ("random", &random)] {
             let time = |shader, rows: &[RayProbeRow]| nanoseconds(&gpu, (shader, &masks), &bind, rows);

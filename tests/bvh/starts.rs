@@ -21,7 +21,7 @@ fn leaving(random: &mut Random, [a, b, c]: [Vec3; 3], grazing: f32) -> RayProbeR
         direction -= 2.0 * normal * direction.dot(normal);
     }
     let row = ray(p, direction.normalize(), 0.0, 1e6);
-    RayProbeRow { normal: normal.to_array(), scale: p.abs().max_element(), ..row }
+    RayProbeRow { normal: normal.to_array(), way: 0.0, ..row }
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn no_leak_at_contact() {
     ];
     let towards = |distance: f32| {
         let row = ray(vec3(distance, 0.0, 0.7), vec3(-0.8, 0.6, 0.0), 0.0, 20.0);
-        RayProbeRow { normal: [0.0, 1.0, 0.0], scale: 5.0, ..row }
+        RayProbeRow { normal: [0.0, 1.0, 0.0], way: 5.0, ..row }
     };
     let rows: Vec<_> = (0..40).map(|i| towards(1e-4 * 1.25_f32.powi(i))).collect();
     let got = occluded(&gpu, &soup(&wall), &rows);

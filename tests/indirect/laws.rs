@@ -73,7 +73,7 @@ fn nothing_for_nothing() {
         room("size = [32, 24]", MATTE, &[LAMP, THINGS].concat()).replace("shadows = true", "shadows = false");
     let mut rig = Rig::new(scene(&text, &[]));
     assert!(!rig.frame.gathers().anything());
-    assert!(rig.gpu_scene.hits.specialization.is_empty(), "nothing that hits are shaded by");
+    assert!(!rig.gpu_scene.hits.exist(), "nothing that hits are shaded by");
     assert_eq!(rig.frame.rows_to_gather(), 0);
     rig.refine(1);
     assert_eq!(rig.frame.gathered(), 0);

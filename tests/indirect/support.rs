@@ -1,10 +1,8 @@
 //! Scenes from texts, pictures refined round by round, and what they are judged by.
 
-use amas::passes::gather::GatheredLights;
 use amas::reference::{self, Integrator, Options};
+use amas::refine::Rounds;
 use amas::scene::load_embedded;
-use amas::shared::GATHER_FRAMES;
-use amas::virtual_lights::{Tracer, VirtualTree};
 use amas::{Frame, FrameInputs, FrameSettings, GpuScene, HdrImage, Scene};
 use std::sync::Arc;
 
@@ -85,18 +83,9 @@ impl Rig {
     /// So many rounds more: lights anew, and a frame for each stratum.
     pub(crate) fn refine(&mut self, rounds: u32) {
         let Self { scene, gpu_scene, frame, device } = self;
-        let origin = gpu_scene.origin;
-        let tracer = frame.gathers().indirect.then(|| Tracer::new(scene, origin));
-        let points = VirtualTree::of_points(&scene.point_lights, origin);
+        let made = Rounds::new(scene, gpu_scene.origin, frame.gathers(), 0.0);
         for _ in 0..rounds {
-            let round = u64::from(frame.gathered() / GATHER_FRAMES);
-            let set = tracer.as_ref().map(|tracer| tracer.trace(scene.render.vpls as usize, round));
-            let set = set.unwrap_or_default();
-            let trees = [&points, &VirtualTree::new(&set.emitters), &VirtualTree::new(&set.bounced)];
-            frame.set_gathered_lights(GatheredLights::new(device, trees, set.spacing).unwrap());
-            for _ in 0..GATHER_FRAMES {
-                frame.gather(&inputs(scene)).unwrap();
-            }
+            made.add(frame, device, &inputs(scene), &|| true).unwrap();
         }
     }
 

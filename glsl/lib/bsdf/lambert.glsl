@@ -5,12 +5,12 @@
 #include "lib/bsdf/matte.glsl"
 #include "lib/bsdf/parameters.glsl"
 
-// Asks of the including shader what lib/bsdf.glsl asks; MODEL may be known at run time only.
+// Asks of the including shader what lib/bsdf.glsl asks.
 vec3 bsdf_lambert(BsdfParameters p) {
-    if (MODEL == MODEL_MATTE) return p.color * oren_nayar(p).a;
-    if (MODEL == MODEL_PLASTIC) return p.color;
-    if (MODEL == MODEL_SUBSTRATE) return p.color * (1.0 - p.specular);
-    if (MODEL == MODEL_PRINCIPLED) return p.color * (LOBE_METALLIC ? 1.0 - p.metallic : 1.0);
+    if (IS_MODEL(MODEL_MATTE)) return p.color * oren_nayar(p).a;
+    if (IS_MODEL(MODEL_PLASTIC)) return p.color;
+    if (IS_MODEL(MODEL_SUBSTRATE)) return p.color * (1.0 - p.specular);
+    if (IS_MODEL(MODEL_PRINCIPLED)) return p.color * (LOBE_METALLIC ? 1.0 - p.metallic : 1.0);
     return vec3(0.0);
 }
 

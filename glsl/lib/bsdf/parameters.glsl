@@ -2,6 +2,10 @@
 #ifndef LIB_BSDF_PARAMETERS_GLSL
 #define LIB_BSDF_PARAMETERS_GLSL
 
+#ifndef IS_MODEL
+#define IS_MODEL(model) (MODEL == (model))
+#endif
+
 struct BsdfParameters {
     vec3 color;            // matte: color; plastic, substrate: diffuse; metal: eta; principled: base_color
     vec3 specular;         // plastic, substrate: specular; metal: k

@@ -1,7 +1,7 @@
 // Sampling of any model: a mixture of wide lobes and microfacet lobes, as `reference::bsdf::sampling` has it. Its density
 // need not match f, only cover it.
 //
-// Asks of the including shader what lib/bsdf.glsl asks; MODEL may be known at run time only.
+// Asks of the including shader what lib/bsdf.glsl asks.
 #ifndef LIB_BSDF_SAMPLE_GLSL
 #define LIB_BSDF_SAMPLE_GLSL
 
@@ -71,10 +71,10 @@ BsdfAlbedos principled_albedos(BsdfParameters p, float cos_o) {
 
 BsdfAlbedos bsdf_albedos(BsdfParameters p, vec3 wo) {
     float cos_o = clamp(wo.z, 0.0, 1.0);
-    if (MODEL == MODEL_MATTE) return matte_albedos(p, length(wo.xy));
-    if (MODEL == MODEL_PLASTIC) return plastic_albedos(p, cos_o);
-    if (MODEL == MODEL_SUBSTRATE) return substrate_albedos(p, wo, cos_o);
-    if (MODEL == MODEL_PRINCIPLED) return principled_albedos(p, cos_o);
+    if (IS_MODEL(MODEL_MATTE)) return matte_albedos(p, length(wo.xy));
+    if (IS_MODEL(MODEL_PLASTIC)) return plastic_albedos(p, cos_o);
+    if (IS_MODEL(MODEL_SUBSTRATE)) return substrate_albedos(p, wo, cos_o);
+    if (IS_MODEL(MODEL_PRINCIPLED)) return principled_albedos(p, cos_o);
     // Visible normals leave of metal its F and the shadowing, which never exceed 1.
     return BsdfAlbedos(0.0, 0.0, 1.0, 0.0, 0.0);
 }
@@ -83,7 +83,7 @@ BsdfSampling bsdf_sampling(BsdfParameters p, vec3 wo) {
     BsdfAlbedos a = bsdf_albedos(p, wo);
     float diffuse = 0.0;
     if (a.diffuse > 0.0) diffuse = clamp(a.diffuse / (a.diffuse + a.specular), LEAST_SHARE, 1.0 - LEAST_SHARE);
-    if (MODEL == MODEL_MATTE) diffuse = 1.0;
+    if (IS_MODEL(MODEL_MATTE)) diffuse = 1.0;
     float coat = a.coat > 0.0 ? max(a.coat / (1.0 + a.coat), LEAST_SHARE) : 0.0;
 
     BsdfSampling s;
@@ -104,7 +104,7 @@ vec3 bsdf_sample(BsdfSampling s, vec2 xi) {
     float x = xi.x;
     if (x < s.cosine) return normalize(cosine_direction(vec2(min(x / s.cosine, LARGEST_UNIT), xi.y)));
     x -= s.cosine;
-    if (x < s.even || s.specular == 0.0) {
+    if (x < s.even || s.specular == 0.0 || !bsdf_has(LOBE_SPECULAR)) {
         return normalize(even_direction(vec2(min(x / s.even, LARGEST_UNIT), xi.y)));
     }
     x -= s.even;
@@ -127,7 +127,9 @@ float bsdf_pdf(BsdfSampling s, vec3 wi) {
     if (s.wo.z <= 0.0 || wi.z <= 0.0) return 0.0;
     HalfVector h = half_vector(s.wo, wi);
     float wide = (s.cosine * wi.z + 0.5 * s.even) * INV_PI;
-    float narrow = s.specular * ggx_pdf(s.ggx, h, s.wo.z) + s.coat * gtr1_pdf(s.gtr1, h);
+    float narrow = 0.0;
+    if (bsdf_has(LOBE_SPECULAR)) narrow = s.specular * ggx_pdf(s.ggx, h, s.wo.z);
+    if (bsdf_has(LOBE_COAT)) narrow += s.coat * gtr1_pdf(s.gtr1, h);
     // Only the substrate skims.
     if (s.skimming > 0.0) narrow += s.skimming * skimming_pdf(skimming_setup(s.ggx, s.wo), wi);
     return wide + narrow;

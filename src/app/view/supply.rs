@@ -4,10 +4,10 @@
 //! within a task of its own when nobody wants its lights any more; it is not waited for.
 
 use super::Event;
-use crate::app::refine::Rounds;
 use crate::error::Result;
 use crate::gpu::Device;
 use crate::passes::gather::{Gathered, GatheredLights};
+use crate::refine::Rounds;
 use crate::scene::Scene;
 use glam::Vec3;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};

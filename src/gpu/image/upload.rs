@@ -1,15 +1,43 @@
 //! Texels on their way from the host to an image.
 
-use super::Image;
+use super::{Image, ImageDescription};
 use crate::error::Result;
-use crate::gpu::{Buffer, BufferUse, Commands, Use};
+use crate::gpu::{Buffer, BufferUse, Commands, Device, Format, Use};
 use ash::vk;
 use bytemuck::Pod;
+use std::sync::Arc;
 
 /// Bytes of texels that are staged at a time.
 const STAGED: usize = 8 << 20;
 
 impl Image {
+    /// A texture of one long row of texels, broken into rows of 2 ^ `width_log2` texels; at least one, padded with zeros.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] where memory is short, or where there are more rows than the device's textures have.
+    pub fn of_texels(
+        device: &Arc<Device>,
+        name: &str,
+        width_log2: u32,
+        mut texels: Vec<[u32; 4]>,
+    ) -> Result<Self> {
+        let width = 1 << width_log2;
+        texels.resize(texels.len().next_multiple_of(width).max(width), [0; 4]);
+        let image = Self::new(
+            device,
+            &ImageDescription {
+                name,
+                format: Format::R32G32B32A32_UINT,
+                size: [width as u32, (texels.len() / width) as u32],
+                layers: None,
+                mips: 1,
+                uses: &[Use::TransferWrite, Use::Texture],
+            },
+        )?;
+        image.upload(&[&texels], Use::Texture)?;
+        Ok(image)
+    }
+
     /// Uploads all mip levels, each level's texels row by row, and leaves the image in use `after`.
     ///
     /// # Errors

@@ -2,7 +2,8 @@
 
 use super::texels::{Heap, Place};
 use crate::bvh::Texel;
-use crate::scene::{Material, Model, Parameter, Scene};
+use crate::gpu_scene::is_anisotropic;
+use crate::scene::{Material, Parameter, Scene};
 use crate::shared::{
     HIT_MATERIAL_TEXELS, HIT_SQUARED_ROUGHNESS, HIT_TWO_SIDED, HitMaterial, HitTexture, MATERIAL_RECORD_LOG2,
     MATERIAL_TEXTURES, MATERIALS_PER_ROW_LOG2,
@@ -12,10 +13,11 @@ use crate::shared::{
 const STRIDE: usize = 1 << MATERIAL_RECORD_LOG2;
 const _: () = assert!(HIT_MATERIAL_TEXELS + MATERIAL_TEXTURES <= 1 << MATERIAL_RECORD_LOG2);
 /// Texels across.
-pub(super) const WIDTH: usize = STRIDE << MATERIALS_PER_ROW_LOG2;
+pub(super) const WIDTH_LOG2: u32 = MATERIAL_RECORD_LOG2 + MATERIALS_PER_ROW_LOG2;
+const WIDTH: usize = 1 << WIDTH_LOG2;
 
-/// Parameters that a BSDF reads, by which textures count: not normal maps, nor masks, which lie beside the tree.
-const READ: usize = Parameter::Normal as usize;
+/// Parameters that a hit reads, by which textures count: not masks, which lie beside the tree.
+pub(super) const READ: usize = Parameter::Normal as usize + 1;
 
 pub(super) struct Materials {
     /// Whole rows.
@@ -43,16 +45,11 @@ impl Materials {
     }
 }
 
-/// Whether its tangents matter.
-pub(super) fn is_anisotropic(material: &Material) -> bool {
-    let aspect = material.value(Parameter::Aspect);
-    let round = [Model::Matte, Model::Plastic].contains(&material.model);
-    !round && (aspect.texture.is_some() || (aspect.constant[0] - 1.0).abs() > 1e-6)
-}
-
 /// Textures of more parameters than a material may have are refused where pipelines are chosen.
 fn textures(material: &Material, heap: &Heap) -> Vec<HitTexture> {
+    let round = !is_anisotropic(material);
     let values = (0..).zip(&material.parameters[..READ]);
+    let values = values.filter(|&(parameter, _)| !(round && parameter == Parameter::Aspect as u32));
     let textured = values.filter_map(|(parameter, value)| Some((parameter, heap.place(value.texture?)?)));
     let textured = textured.take(MATERIAL_TEXTURES as usize);
     textured

@@ -1,8 +1,8 @@
 //! Normals, texture coordinates, tangents and materials of the tree's triangles.
 
-use super::materials::is_anisotropic;
 use crate::bvh::{Bvh, Texel};
-use crate::scene::{Scene, Vertex};
+use crate::gpu_scene::is_anisotropic;
+use crate::scene::{Material, Parameter, Scene, Vertex};
 use crate::shared::{
     BvhTriangle, HIT_LUMINAIRE, HIT_TANGENTS, HIT_TRIANGLE_TEXELS, HitTangents, HitTriangle,
 };
@@ -33,7 +33,7 @@ impl Surfaces {
         };
         let corners = mesh.triangles[triangle.triangle as usize].map(|index| mesh.vertices[index as usize]);
         let mut surface = mesh.material;
-        if is_anisotropic(&scene.materials[mesh.material as usize]) {
+        if has_tangents(&scene.materials[mesh.material as usize]) {
             surface = HIT_TANGENTS | (tangents_at + 3 * self.tangents.len()) as u32;
             self.tangents.push(tangents(corners, mesh.material));
         }
@@ -55,7 +55,12 @@ impl Surfaces {
     }
 }
 
+fn has_tangents(material: &Material) -> bool {
+    is_anisotropic(material) || material.value(Parameter::Normal).texture.is_some()
+}
+
 fn tangents(corners: [Vertex; 3], material: u32) -> HitTangents {
+    let handed = corners.iter().map(|corner| corner.tangent[3]).sum();
     let [a, b, c] = corners.map(|Vertex { tangent: [x, y, z, _], .. }| [x, y, z]);
-    HitTangents { a, material, b, c, ..HitTangents::default() }
+    HitTangents { a, material, b, handed, c, spare: 0 }
 }

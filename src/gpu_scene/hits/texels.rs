@@ -4,9 +4,10 @@
 //! fetches: 16 bytes, or 4 MiB of a texture at the size to which larger ones are reduced. Indirect light is a mean over
 //! many texels, and each level keeps the mean of the one above.
 
+use super::materials::READ;
 use crate::bvh::Texel;
+use crate::scene::Scene;
 use crate::scene::mips::{Level, levels};
-use crate::scene::{Parameter, Scene};
 use half::f16;
 use rayon::prelude::*;
 
@@ -24,12 +25,11 @@ pub(super) struct Place {
 }
 
 impl Heap {
-    /// Appends the textures that give values to BSDFs.
+    /// Appends the textures that a hit may read.
     pub(super) fn append(scene: &Scene, texels: &mut Vec<Texel>) -> Self {
         let used = |index: usize| {
             let materials = scene.materials.iter();
-            let mut values =
-                materials.flat_map(|material| &material.parameters[..Parameter::Normal as usize]);
+            let mut values = materials.flat_map(|material| &material.parameters[..READ]);
             values.any(|value| value.texture == Some(index as u32))
         };
         let reduced: Vec<_> = scene

@@ -1,13 +1,10 @@
 //! Trees over lights on the device: all in one texture of texels.
 
 use crate::error::Result;
-use crate::gpu::{Device, Format, Image, ImageDescription, Use};
+use crate::gpu::{Device, Image};
 use crate::shared::{GATHERED_WIDTH_LOG2, GatherConstants};
 use crate::virtual_lights::VirtualTree;
 use std::sync::Arc;
-
-/// Texels across the texture.
-const WIDTH: usize = 1 << GATHERED_WIDTH_LOG2;
 
 /// Lights to gather from.
 pub struct GatheredLights {
@@ -29,22 +26,9 @@ impl GatheredLights {
             texels.extend_from_slice(bytemuck::cast_slice(&tree.lights));
             [first, if tree.lights.is_empty() { 0 } else { tree.leaves as u32 }]
         });
-        texels.resize(texels.len().next_multiple_of(WIDTH).max(WIDTH), [0; 4]);
-        let image = Image::new(
-            device,
-            &ImageDescription {
-                name: "gathered lights",
-                format: Format::R32G32B32A32_UINT,
-                size: [WIDTH as u32, (texels.len() / WIDTH) as u32],
-                layers: None,
-                mips: 1,
-                uses: &[Use::TransferWrite, Use::Texture],
-            },
-        )?;
-        image.upload(&[&texels], Use::Texture)?;
         let bound = bound(spacing);
         Ok(Self {
-            image,
+            image: Image::of_texels(device, "gathered lights", GATHERED_WIDTH_LOG2, texels)?,
             constants: GatherConstants { points, emitters, virtuals, bound, ..GatherConstants::default() },
         })
     }
