@@ -45,17 +45,20 @@ fn other_models() {
 }
 
 /// A textured lamp; textures that are seen, with texels larger than pixels, and one that only throws its light back: the
-/// wall behind the viewer.
+/// wall behind the viewer. Both have normal maps, up to 40° off.
 #[test]
 fn textures() {
     let lamp = format!("{LAMP}texture = \"default_zellige.png\"\n");
     let behind = "[[material]]\nname = \"rug\"\ntype = \"matte\"\ncolor = { texture = \"default_rug.png\" }\n\
+         normal_map = \"bumps.png\"\n\
          two_sided = false\n\
          [[mesh]]\nshape = \"plane\"\nsize = 2\nmaterial = \"rug\"\ntranslate = [0, 1, 1]\nrotate = [-90, 0, 0]\n";
-    let floor = "type = \"matte\"\ncolor = { texture = \"squares.png\" }";
+    let floor = "type = \"matte\"\ncolor = { texture = \"squares.png\" }\nnormal_map = \"bumps.png\"";
     let text = room(THREE, floor, &[behind, &lamp, THINGS].concat());
     let squares = png([4, 4], |x, y| if (x + y) % 2 == 0 { [230, 60, 40, 255] } else { [40, 90, 200, 255] });
-    let files: [(&str, &[u8]); 3] = [
+    let bumps = png([4, 4], |x, y| [64 + 42 * x as u8, 64 + 42 * y as u8, 230, 255]);
+    let files: [(&str, &[u8]); 4] = [
+        ("bumps.png", &bumps),
         ("default_zellige.png", include_bytes!("../../scenes/default_zellige.png")),
         ("default_rug.png", include_bytes!("../../scenes/default_rug.png")),
         ("squares.png", &squares),
