@@ -38,10 +38,17 @@ impl Subpass<'_> {
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Shape {
     attachments: Vec<Attachment>,
-    /// Colour and input attachments, and depth.
-    subpasses: Vec<(Vec<u32>, Vec<u32>, Option<(u32, Use)>)>,
+    subpasses: Vec<SubpassShape>,
     inside: Vec<(Use, Use)>,
     outside: Vec<Outside>,
+}
+
+/// A [`Subpass`].
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct SubpassShape {
+    color: Vec<u32>,
+    input: Vec<u32>,
+    depth: Option<(u32, Use)>,
 }
 
 /// A render pass.
@@ -88,7 +95,11 @@ impl RenderPass {
         // SAFETY: every index names an attachment or subpass given above, as validation checks in tests.
         let raw = unsafe { device.raw.create_render_pass(&info, None) }.called("vkCreateRenderPass")?;
         device.name(raw, name);
-        let of = |subpass: &Subpass<'_>| (subpass.color.to_vec(), subpass.input.to_vec(), subpass.depth);
+        let of = |subpass: &Subpass<'_>| SubpassShape {
+            color: subpass.color.to_vec(),
+            input: subpass.input.to_vec(),
+            depth: subpass.depth,
+        };
         let shape = Shape {
             attachments: attachments.to_vec(),
             subpasses: subpasses.iter().map(of).collect(),
@@ -100,7 +111,7 @@ impl RenderPass {
 
     /// Colour attachments of a subpass.
     pub(super) fn colors(&self, subpass: u32) -> usize {
-        self.shape.subpasses[subpass as usize].0.len()
+        self.shape.subpasses[subpass as usize].color.len()
     }
 }
 

@@ -31,6 +31,7 @@ use crate::gpu::{
 };
 use crate::gpu_scene::{GpuScene, Triangles};
 use crate::shared::{self, DrawConstants};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// What every pass is made from.
@@ -67,9 +68,9 @@ impl SurfacePipelines {
         extra: &[(u32, u32)],
         blend: Blend,
         (pass, subpass): (&RenderPass, u32),
-        wanted: impl Fn(usize) -> bool,
+        wanted: impl Fn(usize) -> bool + Sync,
     ) -> Result<Self> {
-        let pipelines = inputs.scene.variants.iter().enumerate().map(|(index, variant)| {
+        let pipelines = inputs.scene.variants.par_iter().enumerate().map(|(index, variant)| {
             if !wanted(index) {
                 return Ok(None);
             }
