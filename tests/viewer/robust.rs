@@ -1,7 +1,7 @@
 //! What happens to windows: sizes, places, signals, a long run.
 
 use super::display::Display;
-use super::{SCENE, View, rendered, scene, wait_until};
+use super::{SCENE, View, amas, rendered, scene, stderr, wait_until};
 use std::time::Duration;
 
 /// Numbers that look random and are the same on every run (Knuth's MMIX generator, upper bits).
@@ -136,4 +136,23 @@ fn a_destroyed_window_ends_the_program() {
     let window = client.window_of_size([96, 64]).unwrap();
     client.destroy(window);
     view.ends_well();
+}
+
+/// Without a driver there is nothing to show pictures on.
+#[test]
+fn without_a_driver_the_advice_is_to_render() {
+    let folder = tempfile::tempdir().unwrap();
+    let display = Display::start();
+    let mut command = amas(&["view"]);
+    command.arg(scene(folder.path())).env("DISPLAY", &display.name);
+    // The loader's name for it, and the one before.
+    for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+        command.env(name, folder.path().join("none.json"));
+    }
+    let output = command.output().unwrap();
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(3), "{text}");
+    for part in ["VK_KHR_surface", "remedy", "amas render"] {
+        assert!(text.contains(part), "{part} is not in: {text}");
+    }
 }
