@@ -85,14 +85,24 @@ impl Frame {
         let pass_names = pass_names(work);
         let mask = if work.masks { work.area.div_ceil(shared::AREA_MASK_LIGHTS) } else { 0 };
         let capacity = Capacity::start(tiles, work.lists, mask);
+        // Side by side: most of a start is the driver's work on these pipelines.
+        let ((prepass, cluster), (resolve, forward)) = rayon::join(
+            || {
+                let cluster = || ClusterPass::new(&inputs, work);
+                let prepass = Prepass::new(&inputs, &targets, work.resolve);
+                (prepass, clustered(work).then(cluster).transpose())
+            },
+            || {
+                let resolve = || Resolve::new(&inputs, &targets, work.folded, capacity.clusters);
+                let forward = Forward::new(&inputs, &targets, work);
+                (work.resolve.then(resolve).transpose(), forward)
+            },
+        );
         let frame = Self {
-            prepass: Prepass::new(&inputs, &targets, work.resolve)?,
-            cluster: clustered(work).then(|| ClusterPass::new(&inputs, work)).transpose()?,
-            resolve: work
-                .resolve
-                .then(|| Resolve::new(&inputs, &targets, work.folded, capacity.clusters))
-                .transpose()?,
-            forward: Forward::new(&inputs, &targets, work)?,
+            prepass: prepass?,
+            cluster: cluster?,
+            resolve: resolve?,
+            forward: forward?,
             gather: gather::pass(&inputs, &targets, work.gathered)?,
             gathered_lights: None,
             lists: ClusterTargets::new(device, tiles, capacity)?,

@@ -55,6 +55,15 @@ impl Variant {
     }
 }
 
+/// A scene's triangles, in the order of its draws.
+#[derive(Clone, Copy)]
+pub struct Triangles<'a> {
+    /// Vertices.
+    pub vertices: &'a Buffer<Vertex>,
+    /// Indices of three of them each.
+    pub triangles: &'a Buffer<[u32; 3]>,
+}
+
 /// A scene's buffers and sets.
 pub struct GpuScene {
     /// Set 1.
@@ -169,6 +178,12 @@ impl GpuScene {
             light_images,
             occluders,
         })
+    }
+
+    /// What draws take their triangles from.
+    #[must_use]
+    pub fn geometry(&self) -> Triangles<'_> {
+        Triangles { vertices: &self.vertices, triangles: &self.triangles }
     }
 
     /// Whether lights move.

@@ -224,6 +224,8 @@ shared! {
         AOV_DEPTH = 12;
         /// Bound of the error of the specular lobe's closed form.
         AOV_LTC_BOUND = 13;
+        /// Pixels to the nearest edge of the triangle.
+        AOV_WIREFRAME = 14;
         /// Table of the specular lobe of area lights.
         SPEC_LTC_SPECULAR = 12;
         /// Table of the clear coat.

@@ -12,6 +12,7 @@
 #include "lib/light.glsl"
 #include "bind/surface.glsl"
 #include "aov/material.glsl"
+#include "aov/edge.glsl"
 
 layout(constant_id = 11) const uint AOV = AOV_POSITION;
 layout(location = 0) out vec4 value;
@@ -69,6 +70,8 @@ void main() {
     } else if (AOV == AOV_LTC_BOUND) {
         vec3 wo = view_direction();
         value = vec4(vec3(ltc_bound(surface_parameters(), dot(wo, shading_frame(wo)[2]))), 1.0);
+    } else if (AOV == AOV_WIREFRAME) {
+        value = vec4(vec3(edge_distance(in_normal)), 1.0);
     } else {
         value = vec4(1.0);
     }

@@ -4,6 +4,7 @@
 #include "shared.glsl"
 #include "bind/frame.glsl"
 #include "lib/cluster.glsl"
+#include "aov/edge.glsl"
 
 layout(constant_id = 11) const uint AOV = AOV_POSITION;
 layout(location = 1) in vec3 normal;
@@ -20,6 +21,8 @@ void main() {
         value = vec4(vec3(view_depth(frame, gl_FragCoord.z)), 1.0);
     } else if (AOV == AOV_LIGHT_COUNT || AOV == AOV_ALBEDO || AOV == AOV_ROUGHNESS || AOV == AOV_LTC_BOUND) {
         value = vec4(vec3(0.0), 1.0);
+    } else if (AOV == AOV_WIREFRAME) {
+        value = vec4(vec3(edge_distance(normal)), 1.0);
     } else {
         value = vec4(1.0);
     }

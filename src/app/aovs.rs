@@ -30,7 +30,7 @@ enum Variable {
 }
 
 /// Every variable by its name.
-const VARIABLES: [(&str, Variable); 15] = [
+const VARIABLES: [(&str, Variable); 16] = [
     ("position", Variable::Surface(Quantity::Position)),
     ("normal", Variable::Surface(Quantity::Normal)),
     ("material", Variable::Surface(Quantity::Material)),
@@ -44,6 +44,7 @@ const VARIABLES: [(&str, Variable); 15] = [
     ("folded", Variable::Surface(Quantity::Folded)),
     ("light_error", Variable::Surface(Quantity::LightError)),
     ("ltc_bound", Variable::Surface(Quantity::LtcBound)),
+    ("wireframe", Variable::Surface(Quantity::Wireframe)),
     ("direct", Variable::Direct),
     ("indirect", Variable::Indirect),
 ];

@@ -46,8 +46,10 @@ pub(super) enum Command {
   F6 F7 F8    depth, depth slice, cluster
   F9 F10 F11  lights evaluated, lights evaluated per useful one, estimated error
   B           bound of the error of area lights' closed form
+  G           wireframe: the edges of triangles
   X           beside the reference, the error against it, the picture alone
   ?           these keys; also F1
+  L           scenes shown before; a number loads one
   F12         save the picture to amas_0001.png and .exr, or the next free number
   Esc         stop loading; else close
 A scene or an OBJ file that is dropped on the window is shown there.
@@ -152,7 +154,8 @@ pub(super) struct RenderOptions {
     /// Output variable, several times: position, normal, material (-1: a light that is seen, -2: nothing), albedo, roughness
     /// (alpha), depth (metres), light_count, cluster, slice, pair_ratio (lights evaluated over those within range), folded
     /// (lights beyond the cap of the list), light_error (estimated, relative), ltc_bound (what an area light's closed form
-    /// may be off by), direct or indirect; numbers in .exr or .pfm, colours in .png
+    /// may be off by), wireframe (pixels to the nearest edge of a triangle), direct or indirect; numbers in .exr or .pfm,
+    /// colours in .png
     #[arg(long, value_name = "NAME=FILE", value_parser = parse_pair)]
     pub(super) aov: Vec<(String, String)>,
     #[command(flatten)]

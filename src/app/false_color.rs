@@ -19,6 +19,7 @@ pub(super) fn of(quantity: Quantity, values: &[[f32; 4]]) -> (Vec<[u8; 3]>, Opti
     match quantity {
         Quantity::Normal => (directions(values), None),
         Quantity::Albedo => (colors(values), None),
+        Quantity::Wireframe => (lines(&first()), None),
         Quantity::Material | Quantity::Cluster => (indices(&first()), None),
         _ => {
             let first = first();
@@ -62,6 +63,16 @@ fn indices(values: &[Option<f32>]) -> Vec<[u8; 3]> {
         [byte(24), byte(16), byte(8)]
     };
     values.iter().map(|value| value.map_or([0; 3], color)).collect()
+}
+
+/// Lines of a pixel's width along what is less than a pixel away: half on either side, fading out over the next half.
+fn lines(distances: &[Option<f32>]) -> Vec<[u8; 3]> {
+    const SURFACE: f32 = 0.02;
+    let light = |pixels: f32| SURFACE + (1.0 - SURFACE) * (1.0 - pixels).clamp(0.0, 1.0);
+    let color = |distance: &Option<f32>| {
+        distance.map_or([0.0; 4], |pixels| [light(pixels), light(pixels), light(pixels), 1.0])
+    };
+    colors(&distances.iter().map(color).collect::<Vec<_>>())
 }
 
 /// Directions, each coordinate from −1 to 1; black where there is none.

@@ -3,7 +3,7 @@
 use ash::vk;
 
 /// A use of a buffer or image. A barrier states the use before and the use after.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Use {
     /// Contents are not needed.
     Nothing,

@@ -78,7 +78,7 @@ impl Commands {
         self.point = vk::PipelineBindPoint::COMPUTE;
         self.layout = pipeline.layout.raw;
         // SAFETY: the pipeline is alive until the work is waited for.
-        unsafe { self.device.raw.cmd_bind_pipeline(self.raw, self.point, pipeline.raw) };
+        unsafe { self.device.raw.cmd_bind_pipeline(self.raw, self.point, pipeline.raw.pipeline) };
         self.bind_sets(0, sets);
     }
 
@@ -87,7 +87,7 @@ impl Commands {
         self.point = vk::PipelineBindPoint::GRAPHICS;
         self.layout = pipeline.layout.raw;
         // SAFETY: as for compute.
-        unsafe { self.device.raw.cmd_bind_pipeline(self.raw, self.point, pipeline.raw) };
+        unsafe { self.device.raw.cmd_bind_pipeline(self.raw, self.point, pipeline.raw.pipeline) };
     }
 
     /// Binds sets from number `first` on, for the pipeline bound last.

@@ -98,6 +98,11 @@ impl PipelineLayout {
         Ok(Self { raw, sets, device: device.clone() })
     }
 
+    /// The tables that it was made from, set by set.
+    pub(super) fn tables(&self) -> impl Iterator<Item = &'static [Binding]> {
+        self.sets.iter().map(|set| set.bindings)
+    }
+
     /// `count` sets of the layout's set number `index`, descriptors unwritten.
     ///
     /// # Errors

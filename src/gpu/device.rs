@@ -4,6 +4,7 @@ use super::allocation::Memory;
 use super::cache::Cache;
 use super::candidate::{Candidate, Presentation, candidates, choose};
 use super::instance::Instance;
+use super::pipeline::Compiled;
 use super::requirements::Report;
 use super::{Called, Commands, Shader};
 use crate::error::{Error, Result};
@@ -57,6 +58,7 @@ pub struct Device {
     pub(super) family: u32,
     pool: vk::CommandPool,
     pub(super) cache: Cache,
+    pub(super) compiled: Compiled,
     // Shaders that changed since the program was built, by their names.
     replaced: RwLock<Replaced>,
     // Queue and pool are used by one thread at a time.
@@ -149,6 +151,7 @@ impl Device {
             family: chosen.family,
             pool,
             cache,
+            compiled: Compiled::default(),
             replaced: RwLock::default(),
             turn: Mutex::new(()),
             instance,
@@ -242,8 +245,12 @@ impl Device {
 
     /// The words of a shader, as built or replaced.
     pub(super) fn words(&self, shader: Shader) -> Vec<u32> {
-        let replaced = self.replaced.read().unwrap_or_else(PoisonError::into_inner);
-        replaced.get(shader.name).cloned().unwrap_or_else(|| shader.words())
+        self.replaced(shader).unwrap_or_else(|| shader.words())
+    }
+
+    /// The words in a shader's place, if there are any.
+    pub(super) fn replaced(&self, shader: Shader) -> Option<Vec<u32>> {
+        self.replaced.read().unwrap_or_else(PoisonError::into_inner).get(shader.name).cloned()
     }
 
     /// Hands the queue to `call`, which no other thread uses meanwhile.

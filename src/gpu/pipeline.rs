@@ -1,5 +1,7 @@
 //! Pipelines: a description with defaults, and what differs.
 
+mod compiled;
+
 use super::descriptor::PipelineLayout;
 use super::device::Device;
 use super::render_pass::RenderPass;
@@ -7,6 +9,8 @@ use super::{Called, Shader};
 use crate::error::Result;
 use crate::scene::Vertex;
 use ash::vk;
+pub(super) use compiled::Compiled;
+use compiled::{Key, Raw, State};
 use std::ffi::CStr;
 use std::mem::offset_of;
 use std::sync::Arc;
@@ -48,7 +52,7 @@ impl Specialization {
 }
 
 /// How fragments meet the depth buffer (reversed: nearer is greater).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DepthTest {
     /// No test.
     Off,
@@ -59,7 +63,7 @@ pub enum DepthTest {
 }
 
 /// How colours are combined with what is there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Blend {
     /// Replaced.
     Replace,
@@ -70,7 +74,7 @@ pub enum Blend {
 }
 
 /// Which faces are dropped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Cull {
     /// None.
     None,
@@ -79,7 +83,7 @@ pub enum Cull {
 }
 
 /// What a vertex shader reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Vertices {
     /// Nothing: a triangle over the whole screen.
     None,
@@ -115,20 +119,18 @@ pub struct GraphicsDescription<'a> {
 
 /// A graphics pipeline; viewport and scissor are dynamic.
 pub struct GraphicsPipeline {
-    pub(super) raw: vk::Pipeline,
+    pub(super) raw: Arc<Raw>,
     pub(super) layout: Arc<PipelineLayout>,
-    device: Arc<Device>,
 }
 
 /// A compute pipeline.
 pub struct ComputePipeline {
-    pub(super) raw: vk::Pipeline,
+    pub(super) raw: Arc<Raw>,
     pub(super) layout: Arc<PipelineLayout>,
-    device: Arc<Device>,
 }
 
 impl ComputePipeline {
-    /// Compiles a compute shader.
+    /// Compiles a compute shader, unless a pipeline of it is there.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
@@ -138,21 +140,31 @@ impl ComputePipeline {
         shader: Shader,
         specialization: &Specialization,
     ) -> Result<Self> {
-        let module = Module::new(device, shader)?;
-        let (entries, data) = specialization.entries();
-        let constants = vk::SpecializationInfo::default().map_entries(&entries).data(&data);
-        let info =
-            [vk::ComputePipelineCreateInfo::default().stage(module.stage(&constants)).layout(layout.raw)];
-        // SAFETY: module and layout are alive; the shader's bindings come from the layout's tables.
-        let raws = unsafe { device.raw.create_compute_pipelines(device.cache.raw, &info, None) }
-            .map_err(|(_, result)| super::failed(format!("pipeline {}", shader.name), result))?;
-        device.name(raws[0], shader.name);
-        Ok(Self { raw: raws[0], layout: layout.clone(), device: device.clone() })
+        let key = Key::new(device, &[shader], specialization, layout, None);
+        let raw = device.compiled.get(key, || compile_compute(device, layout, shader, specialization))?;
+        Ok(Self { raw, layout: layout.clone() })
     }
 }
 
+fn compile_compute(
+    device: &Arc<Device>,
+    layout: &PipelineLayout,
+    shader: Shader,
+    specialization: &Specialization,
+) -> Result<Raw> {
+    let module = Module::new(device, shader)?;
+    let (entries, data) = specialization.entries();
+    let constants = vk::SpecializationInfo::default().map_entries(&entries).data(&data);
+    let info = [vk::ComputePipelineCreateInfo::default().stage(module.stage(&constants)).layout(layout.raw)];
+    // SAFETY: module and layout are alive; the shader's bindings come from the layout's tables.
+    let raws = unsafe { device.raw.create_compute_pipelines(device.cache.raw, &info, None) }
+        .map_err(|(_, result)| super::failed(format!("pipeline {}", shader.name), result))?;
+    device.name(raws[0], shader.name);
+    Ok(Raw { pipeline: raws[0], device: device.clone() })
+}
+
 impl GraphicsPipeline {
-    /// Compiles a graphics pipeline.
+    /// Compiles a graphics pipeline, unless one like it is there.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
@@ -161,54 +173,66 @@ impl GraphicsPipeline {
         layout: &Arc<PipelineLayout>,
         description: &GraphicsDescription<'_>,
     ) -> Result<Self> {
-        let vertex = Module::new(device, description.vertex)?;
-        let fragment = description.fragment.map(|shader| Module::new(device, shader)).transpose()?;
-        let (entries, data) = description.specialization.entries();
-        let constants = vk::SpecializationInfo::default().map_entries(&entries).data(&data);
-        let stages: Vec<_> =
-            std::iter::once(&vertex).chain(&fragment).map(|module| module.stage(&constants)).collect();
-        let (stride, attributes) = description.vertices.layout();
-        let binding = [vk::VertexInputBindingDescription {
-            binding: 0,
-            stride: stride as u32,
-            input_rate: vk::VertexInputRate::VERTEX,
-        }];
-        let mut input = vk::PipelineVertexInputStateCreateInfo::default();
-        if !attributes.is_empty() {
-            input = input.vertex_binding_descriptions(&binding).vertex_attribute_descriptions(attributes);
-        }
-        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
-            .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-        let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-        let raster = rasterization(description.cull);
-        let samples = vk::PipelineMultisampleStateCreateInfo::default()
-            .rasterization_samples(vk::SampleCountFlags::TYPE_1);
-        let depth = depth_state(description.depth);
-        let colors = description.pass.colors[description.subpass as usize];
-        let attachments: Vec<_> =
-            description.blend.map(blend_state).into_iter().cycle().take(colors).collect();
-        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
-        let dynamic = vk::PipelineDynamicStateCreateInfo::default()
-            .dynamic_states(&[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR]);
-        let info = [vk::GraphicsPipelineCreateInfo::default()
-            .stages(&stages)
-            .vertex_input_state(&input)
-            .input_assembly_state(&assembly)
-            .viewport_state(&viewport)
-            .rasterization_state(&raster)
-            .multisample_state(&samples)
-            .depth_stencil_state(&depth)
-            .color_blend_state(&blend)
-            .dynamic_state(&dynamic)
-            .layout(layout.raw)
-            .render_pass(description.pass.raw)
-            .subpass(description.subpass)];
-        // SAFETY: everything `info` points to outlives the call.
-        let raws = unsafe { device.raw.create_graphics_pipelines(device.cache.raw, &info, None) }
-            .map_err(|(_, result)| super::failed(format!("pipeline {}", description.name), result))?;
-        device.name(raws[0], description.name);
-        Ok(Self { raw: raws[0], layout: layout.clone(), device: device.clone() })
+        let &GraphicsDescription { vertices, depth, blend, cull, pass, subpass, .. } = description;
+        let state = State { vertices, depth, blend, cull, pass: pass.shape.clone(), subpass };
+        let shaders: Vec<_> = std::iter::once(description.vertex).chain(description.fragment).collect();
+        let key = Key::new(device, &shaders, description.specialization, layout, Some(state));
+        let raw = device.compiled.get(key, || compile_graphics(device, layout, description))?;
+        Ok(Self { raw, layout: layout.clone() })
     }
+}
+
+fn compile_graphics(
+    device: &Arc<Device>,
+    layout: &PipelineLayout,
+    description: &GraphicsDescription<'_>,
+) -> Result<Raw> {
+    let vertex = Module::new(device, description.vertex)?;
+    let fragment = description.fragment.map(|shader| Module::new(device, shader)).transpose()?;
+    let (entries, data) = description.specialization.entries();
+    let constants = vk::SpecializationInfo::default().map_entries(&entries).data(&data);
+    let stages: Vec<_> =
+        std::iter::once(&vertex).chain(&fragment).map(|module| module.stage(&constants)).collect();
+    let (stride, attributes) = description.vertices.layout();
+    let binding = [vk::VertexInputBindingDescription {
+        binding: 0,
+        stride: stride as u32,
+        input_rate: vk::VertexInputRate::VERTEX,
+    }];
+    let mut input = vk::PipelineVertexInputStateCreateInfo::default();
+    if !attributes.is_empty() {
+        input = input.vertex_binding_descriptions(&binding).vertex_attribute_descriptions(attributes);
+    }
+    let assembly =
+        vk::PipelineInputAssemblyStateCreateInfo::default().topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+    let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
+    let raster = rasterization(description.cull);
+    let samples =
+        vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(vk::SampleCountFlags::TYPE_1);
+    let depth = depth_state(description.depth);
+    let colors = description.pass.colors(description.subpass);
+    let attachments: Vec<_> = description.blend.map(blend_state).into_iter().cycle().take(colors).collect();
+    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
+    let dynamic = vk::PipelineDynamicStateCreateInfo::default()
+        .dynamic_states(&[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR]);
+    let info = [vk::GraphicsPipelineCreateInfo::default()
+        .stages(&stages)
+        .vertex_input_state(&input)
+        .input_assembly_state(&assembly)
+        .viewport_state(&viewport)
+        .rasterization_state(&raster)
+        .multisample_state(&samples)
+        .depth_stencil_state(&depth)
+        .color_blend_state(&blend)
+        .dynamic_state(&dynamic)
+        .layout(layout.raw)
+        .render_pass(description.pass.raw)
+        .subpass(description.subpass)];
+    // SAFETY: everything `info` points to outlives the call.
+    let raws = unsafe { device.raw.create_graphics_pipelines(device.cache.raw, &info, None) }
+        .map_err(|(_, result)| super::failed(format!("pipeline {}", description.name), result))?;
+    device.name(raws[0], description.name);
+    Ok(Raw { pipeline: raws[0], device: device.clone() })
 }
 
 const ATTRIBUTES: [vk::VertexInputAttributeDescription; 4] = [
@@ -278,20 +302,6 @@ fn blend_state(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
             .dst_color_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
             .src_alpha_blend_factor(vk::BlendFactor::ONE)
             .dst_alpha_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA),
-    }
-}
-
-impl Drop for GraphicsPipeline {
-    fn drop(&mut self) {
-        // SAFETY: no work is pending outside `Device::run`.
-        unsafe { self.device.raw.destroy_pipeline(self.raw, None) };
-    }
-}
-
-impl Drop for ComputePipeline {
-    fn drop(&mut self) {
-        // SAFETY: no work is pending outside `Device::run`.
-        unsafe { self.device.raw.destroy_pipeline(self.raw, None) };
     }
 }
 

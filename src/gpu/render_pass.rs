@@ -7,7 +7,7 @@ use ash::vk;
 use std::sync::Arc;
 
 /// An attachment of a render pass.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Attachment {
     /// Texel format.
     pub format: vk::Format,
@@ -34,11 +34,27 @@ impl Subpass<'_> {
     }
 }
 
+/// All that a render pass is made from: what is compiled for one may be used in another of equal shape.
+#[derive(Debug, PartialEq, Eq, Hash)]
+pub(super) struct Shape {
+    attachments: Vec<Attachment>,
+    subpasses: Vec<SubpassShape>,
+    inside: Vec<(Use, Use)>,
+    outside: Vec<Outside>,
+}
+
+/// A [`Subpass`].
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct SubpassShape {
+    color: Vec<u32>,
+    input: Vec<u32>,
+    depth: Option<(u32, Use)>,
+}
+
 /// A render pass.
 pub struct RenderPass {
     pub(super) raw: vk::RenderPass,
-    // Colour attachments of each subpass.
-    pub(super) colors: Vec<usize>,
+    pub(super) shape: Arc<Shape>,
     device: Arc<Device>,
 }
 
@@ -79,13 +95,28 @@ impl RenderPass {
         // SAFETY: every index names an attachment or subpass given above, as validation checks in tests.
         let raw = unsafe { device.raw.create_render_pass(&info, None) }.called("vkCreateRenderPass")?;
         device.name(raw, name);
-        let colors = subpasses.iter().map(|subpass| subpass.color.len()).collect();
-        Ok(Self { raw, colors, device: device.clone() })
+        let of = |subpass: &Subpass<'_>| SubpassShape {
+            color: subpass.color.to_vec(),
+            input: subpass.input.to_vec(),
+            depth: subpass.depth,
+        };
+        let shape = Shape {
+            attachments: attachments.to_vec(),
+            subpasses: subpasses.iter().map(of).collect(),
+            inside: inside.to_vec(),
+            outside: outside.to_vec(),
+        };
+        Ok(Self { raw, shape: Arc::new(shape), device: device.clone() })
+    }
+
+    /// Colour attachments of a subpass.
+    pub(super) fn colors(&self, subpass: u32) -> usize {
+        self.shape.subpasses[subpass as usize].color.len()
     }
 }
 
 /// A dependency on work outside the pass.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outside {
     /// Earlier work, then the first subpass.
     Before(Use, Use),

@@ -3,6 +3,8 @@
 //! Recorded only when asked for, after the frame, against the frame's depth. A light that is seen has a position, a
 //! normal turned to the viewer, the material −1, and no lights.
 
+mod corners;
+
 use super::luminaires::Luminaires;
 use super::sheet::{Sheet, sheet_pass};
 use super::{PassInputs, SurfacePipelines, View};
@@ -10,6 +12,7 @@ use crate::error::Result;
 use crate::gpu::{Blend, Commands, Framebuffer, Image, RenderPass, Use, shaders};
 use crate::shared;
 use crate::targets::Targets;
+use corners::Corners;
 
 /// What the variable is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +45,8 @@ pub enum Quantity {
     /// How far the transformed cosine of the specular lobe is from it at most, in total variation, as a share of the lobe:
     /// what area lights' closed form may be off by, and quadrature may not. 0 without such a lobe or an area light.
     LtcBound = shared::AOV_LTC_BOUND,
+    /// Distance to the nearest edge of the triangle that is seen, pixels: exact at the edge, to first order beside it.
+    Wireframe = shared::AOV_WIREFRAME,
     /// How often the pixel is shaded.
     Coverage = shared::AOV_COVERAGE,
 }
@@ -52,6 +57,8 @@ pub struct Aov {
     framebuffer: Framebuffer,
     pipelines: SurfacePipelines,
     luminaires: Option<Luminaires>,
+    /// In the place of the scene's vertices.
+    corners: Option<Corners>,
     image: Image,
 }
 
@@ -69,16 +76,22 @@ impl Aov {
         let seen = !inputs.scene.area.luminaires.is_empty();
         let luminaires = || Luminaires::new(inputs, shaders::AOV_LUMINAIRE_FRAG, &extra, blend, (&pass, 0));
         let luminaires = seen.then(luminaires).transpose()?;
-        Ok(Self { pass, framebuffer, pipelines, luminaires, image })
+        let edges = quantity == Quantity::Wireframe;
+        let corners = edges.then(|| Corners::new(inputs.device, inputs.scene)).transpose()?;
+        Ok(Self { pass, framebuffer, pipelines, luminaires, corners, image })
     }
 
     /// Draws the variable.
     pub fn record(&self, cmd: &mut Commands, view: &View<'_>) {
         cmd.labelled("aov", |cmd| {
             cmd.begin_pass(&self.pass, &self.framebuffer);
-            self.pipelines.draw(cmd, view, [0; 2]);
+            let triangles = match &self.corners {
+                Some(corners) => corners.triangles(),
+                None => view.scene.geometry(),
+            };
+            self.pipelines.draw_of(cmd, view, triangles);
             if let Some(luminaires) = &self.luminaires {
-                luminaires.draw(cmd, view);
+                luminaires.draw_of(cmd, view, triangles);
             }
             cmd.end_pass();
         });

@@ -6,7 +6,7 @@ use crate::gpu::{
     Blend, Commands, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, RenderPass, Shader,
     Specialization, Vertices, shaders,
 };
-use crate::gpu_scene::Luminaire;
+use crate::gpu_scene::{Luminaire, Triangles};
 use crate::shared::{self, DrawConstants};
 
 /// Pipelines by [`Luminaire`].
@@ -63,8 +63,13 @@ impl Luminaires {
 
     /// Draws the lights in view, each with its index for the shader.
     pub(super) fn draw(&self, cmd: &mut Commands, view: &View<'_>) {
+        self.draw_of(cmd, view, view.scene.geometry());
+    }
+
+    /// As [`Luminaires::draw`], with the scene's triangles in another form.
+    pub(super) fn draw_of(&self, cmd: &mut Commands, view: &View<'_>, triangles: Triangles<'_>) {
         let scene = view.scene;
-        cmd.bind_triangles(&scene.vertices, &scene.triangles);
+        cmd.bind_triangles(triangles.vertices, triangles.triangles);
         for kind in [Luminaire::Flat, Luminaire::Line] {
             let mut draws = view.luminaires.iter().filter(|draw| draw.variant == kind as usize).peekable();
             if draws.peek().is_some() {

@@ -29,8 +29,9 @@ use crate::gpu::{
     Blend, Commands, DepthTest, DescriptorSet, Device, GraphicsDescription, GraphicsPipeline, RenderPass,
     Shader, Vertices, shaders,
 };
-use crate::gpu_scene::GpuScene;
+use crate::gpu_scene::{GpuScene, Triangles};
 use crate::shared::{self, DrawConstants};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// What every pass is made from.
@@ -67,9 +68,9 @@ impl SurfacePipelines {
         extra: &[(u32, u32)],
         blend: Blend,
         (pass, subpass): (&RenderPass, u32),
-        wanted: impl Fn(usize) -> bool,
+        wanted: impl Fn(usize) -> bool + Sync,
     ) -> Result<Self> {
-        let pipelines = inputs.scene.variants.iter().enumerate().map(|(index, variant)| {
+        let pipelines = inputs.scene.variants.par_iter().enumerate().map(|(index, variant)| {
             if !wanted(index) {
                 return Ok(None);
             }
@@ -101,6 +102,11 @@ impl SurfacePipelines {
     fn draw(&self, cmd: &mut Commands, view: &View<'_>, lights: [u32; 2]) {
         draw_scene(cmd, view, lights, |variant| self.0[variant].as_ref());
     }
+
+    /// As [`SurfacePipelines::draw`], with the scene's triangles in another form.
+    fn draw_of(&self, cmd: &mut Commands, view: &View<'_>, triangles: Triangles<'_>) {
+        draw_triangles(cmd, view, [0; 2], triangles, |variant| self.0[variant].as_ref());
+    }
 }
 
 /// What a frame draws: the scene, the part of it that is in view, and the frame's descriptors.
@@ -123,8 +129,18 @@ fn draw_scene<'a>(
     lights: [u32; 2],
     pipeline: impl Fn(usize) -> Option<&'a GraphicsPipeline>,
 ) {
+    draw_triangles(cmd, view, lights, view.scene.geometry(), pipeline);
+}
+
+fn draw_triangles<'a>(
+    cmd: &mut Commands,
+    view: &View<'_>,
+    lights: [u32; 2],
+    triangles: Triangles<'_>,
+    pipeline: impl Fn(usize) -> Option<&'a GraphicsPipeline>,
+) {
     let scene = view.scene;
-    cmd.bind_triangles(&scene.vertices, &scene.triangles);
+    cmd.bind_triangles(triangles.vertices, triangles.triangles);
     let mut variant = None;
     let mut drawn = None;
     for draw in view.draws {

@@ -15,6 +15,7 @@ use crate::gpu::{
 use crate::gpu_scene::GpuScene;
 use crate::shared::{self, MaterialRecord, ResolveDispatch, TILE_PIXELS};
 use crate::targets::Targets;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// By pixels an invocation.
@@ -48,14 +49,15 @@ impl Resolve {
         let lanes = inputs.lanes;
         let most = (TILE_PIXELS / lanes).min(shared::RESOLVE_PIXELS);
         let base = Specialization::default().with(shared::SPEC_LANES, lanes);
-        let many = (0..).zip(&scene.resolved.specializations).map(|(index, variant)| {
+        let variants = scene.resolved.specializations.par_iter().enumerate();
+        let many = variants.map(|(index, variant)| {
             let pipelines = (1..=most).map(|pixels| {
                 let specialization = variant
                     .clone()
                     .with(shared::SPEC_PERSPECTIVE, u32::from(inputs.perspective))
                     .with(shared::SPEC_LANES, lanes)
                     .with(shared::SPEC_FOLDED, u32::from(folded))
-                    .with(shared::SPEC_RESOLVED, index);
+                    .with(shared::SPEC_RESOLVED, index as u32);
                 ComputePipeline::new(device, &layout, MANY[pixels as usize - 1], &specialization)
             });
             pipelines.collect::<Result<_>>()

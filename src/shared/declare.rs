@@ -17,7 +17,7 @@ pub type vec4 = [f32; 4];
 pub type mat4 = [[f32; 4]; 4];
 
 /// What a descriptor is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BindingKind {
     /// `uniform` block.
     Uniform,
@@ -34,7 +34,7 @@ pub enum BindingKind {
 }
 
 /// Which shaders see a binding. Limits count per stage, so what one stage alone reads costs the others nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stages {
     /// All of them.
     All,
@@ -45,7 +45,7 @@ pub enum Stages {
 }
 
 /// One binding of a descriptor set.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Binding {
     /// Number in the set.
     pub binding: u32,

@@ -64,7 +64,7 @@ fn names_of_things() {
         folder.refused(&[&["render", "scene.toml"], words].concat(), parts);
     };
     render(&["--camera", "side"], &["scene.toml", "\"side\"", "choose one of: main"]);
-    render(&["--aov", "shine=a.exr"], &["\"shine\"", "ltc_bound, direct or indirect"]);
+    render(&["--aov", "shine=a.exr"], &["\"shine\"", "wireframe, direct or indirect"]);
     render(&["--aov", "normal"], &["NAME=VALUE"]);
     render(&["--aov", "normal="], &["NAME=VALUE"]);
     folder.refused(

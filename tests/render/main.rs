@@ -26,3 +26,4 @@ mod pick;
 mod support;
 mod surfaces;
 mod textures;
+mod wireframe;

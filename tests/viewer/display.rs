@@ -74,7 +74,7 @@ pub(super) struct Client {
 }
 
 impl Client {
-    fn new(display: &str) -> Self {
+    pub(super) fn new(display: &str) -> Self {
         let socket = PathBuf::from(format!("/tmp/.X11-unix/X{}", &display[1..]));
         let mut stream = UnixStream::connect(socket).unwrap();
         // Little-endian, protocol 11, no authorisation.
@@ -113,6 +113,10 @@ impl Client {
     pub(super) fn place(&mut self, window: u32, [x, y]: [u32; 2]) {
         const X_AND_Y: u32 = 1 | 2;
         self.send(12, 0, &words(&[window, X_AND_Y, x, y]));
+    }
+
+    pub(super) fn destroy(&mut self, window: u32) {
+        self.send(4, 0, &words(&[window]));
     }
 
     pub(super) fn focus(&mut self, window: u32) {

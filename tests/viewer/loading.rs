@@ -1,7 +1,7 @@
 //! Scenes that change, that are dropped, that take long; pictures saved from the window; compiled pipelines kept.
 
 use super::display::Display;
-use super::{ESCAPE, F5, F12, Open, SCENE, View, amas, rendered, scene, stderr, wait_until};
+use super::{ESCAPE, F5, F12, L, Open, SCENE, TWO, View, amas, rendered, scene, stderr, wait_until};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -150,4 +150,37 @@ fn pipelines_are_kept_and_starts_are_timed() {
         let name = kept[0].as_ref().unwrap().file_name().into_string().unwrap();
         assert!(name.starts_with("pipelines-"), "{name}");
     }
+}
+
+/// A list of what was shown, from one start to the next: the second of it is the one before.
+#[test]
+fn scenes_shown_before_are_remembered() {
+    let folder = tempfile::tempdir().unwrap();
+    let [one, other] = ["one.toml", "other.toml"].map(|name| folder.path().join(name));
+    std::fs::write(&one, SCENE).unwrap();
+    std::fs::write(&other, SCENE.replace("[0.02, 0.05, 0.2]", "[0.2, 0.05, 0.02]")).unwrap();
+    let pictures = [&one, &other].map(|path| rendered(path, SIZE));
+    let display = Display::start();
+    let mut client = display.connect();
+    let mut open = |path: &Path, picture: &[[u8; 3]]| {
+        let mut command = amas(&["view", "--device", "llvmpipe", "--validate"]);
+        command.arg(path).env("DISPLAY", &display.name).env("XDG_STATE_HOME", folder.path());
+        let view = View::of(command.spawn().unwrap());
+        wait_until("the first picture", || display.corner([96, 64]) == picture);
+        let window = client.window_of_size([96, 64]).unwrap();
+        client.focus(window);
+        view
+    };
+    let first = open(&one, &pictures[0]);
+    first.signal("TERM");
+    first.ends_well();
+    let second = open(&other, &pictures[1]);
+    let mut client = display.connect();
+    client.tap(L);
+    client.tap(TWO);
+    wait_until("the scene before", || display.corner([96, 64]) == pictures[0]);
+    client.tap(ESCAPE);
+    second.ends_well();
+    let kept = std::fs::read_to_string(folder.path().join("amas/recent")).unwrap();
+    assert_eq!(kept, format!("{}\n{}\n", one.display(), other.display()));
 }

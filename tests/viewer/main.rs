@@ -11,6 +11,7 @@ mod gathered;
 mod loading;
 mod overlay;
 mod robust;
+mod surface;
 mod wayland;
 
 use display::{Client, Display};
@@ -68,6 +69,7 @@ const W: u8 = 25;
 const R: u8 = 27;
 const P: u8 = 33;
 const D: u8 = 40;
+const L: u8 = 46;
 const C: u8 = 54;
 const F5: u8 = 71;
 const F12: u8 = 96;
@@ -81,6 +83,7 @@ fn amas(arguments: &[&str]) -> Command {
         .env_remove("WAYLAND_DISPLAY")
         .env_remove("WAYLAND_SOCKET")
         .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
+        .env("XDG_STATE_HOME", env!("CARGO_TARGET_TMPDIR"))
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());

@@ -7,13 +7,14 @@ use std::path::Path;
 const SIZE: [u32; 2] = [320, 240];
 
 const I: u8 = 31;
+const G: u8 = 42;
 const O: u8 = 32;
 const X: u8 = 53;
 const B: u8 = 56;
 const F1: u8 = 67;
 
 /// Keys of the debug views, and the output variables that they show.
-const VIEWS: [(u8, &str); 10] = [
+const VIEWS: [(u8, &str); 11] = [
     (68, "albedo"),
     (69, "normal"),
     (70, "roughness"),
@@ -24,6 +25,7 @@ const VIEWS: [(u8, &str); 10] = [
     (76, "pair_ratio"),
     (95, "light_error"),
     (B, "ltc_bound"),
+    (G, "wireframe"),
 ];
 
 const AREA_LIGHT: &str = "
@@ -113,7 +115,7 @@ fn debug_views_are_the_output_variables() {
         let same = || differing(upper(&open.screen()).iter(), upper(&want).iter()) == 0.0;
         wait_until(name, same);
     }
-    open.client.tap(B);
+    open.client.tap(VIEWS[VIEWS.len() - 1].0);
     open.shows("the picture", SIZE, &first);
     open.ends_well();
 }

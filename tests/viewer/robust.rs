@@ -1,7 +1,7 @@
 //! What happens to windows: sizes, places, signals, a long run.
 
 use super::display::Display;
-use super::{SCENE, View, rendered, scene, wait_until};
+use super::{SCENE, View, amas, rendered, scene, stderr, wait_until};
 use std::time::Duration;
 
 /// Numbers that look random and are the same on every run (Knuth's MMIX generator, upper bits).
@@ -73,7 +73,7 @@ fn a_long_run_takes_no_more_memory() {
     let path = scene(folder.path());
     std::fs::write(&path, SCENE.replace("[render]", "[render]\nsamples = 7")).unwrap();
     let display = Display::start();
-    let mut view = View::open_plain(&display, &path, &["--frames", "1200", "--no-vsync"]);
+    let mut view = View::open_plain(&display, &path, &["--frames", "2000", "--no-vsync"]);
     let mut resident = Vec::new();
     while !view.has_ended() {
         resident.extend(view.resident_kilobytes());
@@ -90,4 +90,69 @@ fn a_long_run_takes_no_more_memory() {
     let ratio = median(&resident[3 * quarter..]) / median(&resident[quarter..2 * quarter]);
     println!("{} readings, ratio {ratio:.4}", resident.len());
     assert!((0.98..1.02).contains(&ratio), "{ratio}");
+}
+
+/// Memory of a window whose scene changes again and again. The first loads find out how much two pictures take, the one that
+/// is there and the one that takes its place.
+#[test]
+fn reloads_take_no_more_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = scene(folder.path());
+    let display = Display::start();
+    let view = View::open_plain(&display, &path, &[]);
+    let background = || display.corner([1, 1])[0];
+    let waiting = [[0; 3], [24; 3]];
+    wait_until("the picture", || !waiting.contains(&background()));
+    let mut resident = Vec::new();
+    for reload in 0..50 {
+        let before = background();
+        // Written under another name: a reload never sees half of it.
+        let next = path.with_extension("next");
+        let shade = 0.1 + 0.8 * f64::from(reload % 2);
+        std::fs::write(&next, SCENE.replace("[0.02, 0.05, 0.2]", &format!("[{shade}, 0.05, 0.2]"))).unwrap();
+        std::fs::rename(&next, &path).unwrap();
+        wait_until("the reload", || background() != before);
+        // The picture before has gone once the next event is handled.
+        std::thread::sleep(Duration::from_millis(50));
+        resident.push(view.resident_kilobytes().unwrap() as f64);
+    }
+    view.signal("TERM");
+    view.ends_well();
+    let ratio = resident[49] / resident[4];
+    println!("{resident:?} kB, ratio {ratio:.4}");
+    assert!((0.98..1.02).contains(&ratio), "{ratio}");
+}
+
+/// By another program, without asking.
+#[test]
+fn a_destroyed_window_ends_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let picture = rendered(&scene, [96, 64]);
+    let display = Display::start();
+    let view = View::open(&display, &scene, &[]);
+    wait_until("the picture", || display.corner([96, 64]) == picture);
+    let mut client = display.connect();
+    let window = client.window_of_size([96, 64]).unwrap();
+    client.destroy(window);
+    view.ends_well();
+}
+
+/// Without a driver there is nothing to show pictures on.
+#[test]
+fn without_a_driver_the_advice_is_to_render() {
+    let folder = tempfile::tempdir().unwrap();
+    let display = Display::start();
+    let mut command = amas(&["view"]);
+    command.arg(scene(folder.path())).env("DISPLAY", &display.name);
+    // The loader's name for it, and the one before.
+    for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+        command.env(name, folder.path().join("none.json"));
+    }
+    let output = command.output().unwrap();
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(3), "{text}");
+    for part in ["VK_KHR_surface", "remedy", "amas render"] {
+        assert!(text.contains(part), "{part} is not in: {text}");
+    }
 }

@@ -14,9 +14,15 @@ struct Compositor {
 impl Compositor {
     /// With a shell that leaves windows their size, or one that gives them the whole output.
     fn start(shell: &str) -> Self {
+        Self::with(shell, 1)
+    }
+
+    /// On an output of that scale.
+    fn with(shell: &str, scale: u32) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let server = Command::new("weston")
             .args(["--backend=headless-backend.so", "--width=200", "--height=140", "--idle-time=0"])
+            .arg(format!("--scale={scale}"))
             .args(["--no-config", "--socket=amas-test", &format!("--shell={shell}")])
             .env("XDG_RUNTIME_DIR", folder.path())
             .env_remove("WAYLAND_DISPLAY")
@@ -107,6 +113,18 @@ fn sizes(scene: &Path) -> Vec<String> {
     sizes.retain(|size| !size.ends_with(", 24"));
     sizes.dedup();
     sizes
+}
+
+/// The window learns of the output's scale once it is on it, and keeps its size in points: twice the pixels.
+#[test]
+fn a_wayland_window_follows_the_scale_of_its_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let compositor = Compositor::with("desktop-shell.so", 2);
+    let view = compositor.open_telling(&scene);
+    wait_until("the size", || sizes(&scene).last().is_some_and(|size| size == "192, 128"));
+    view.signal("TERM");
+    assert_eq!(view.output().status.code(), Some(0));
 }
 
 /// A compositor that goes away takes the window along, without a crash.

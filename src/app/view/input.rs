@@ -13,7 +13,7 @@ use winit::keyboard::{KeyCode, ModifiersState, PhysicalKey};
 /// Pixels that a touchpad scrolls for a notch of a wheel, at a scale of 1.
 const PIXELS_PER_NOTCH: f64 = 40.0;
 
-/// The number keys, which stand for the scene's cameras.
+/// The number keys, which stand for the scene's cameras, or for scenes.
 const NUMBERS: [KeyCode; 9] = [
     KeyCode::Digit1,
     KeyCode::Digit2,
@@ -25,6 +25,11 @@ const NUMBERS: [KeyCode; 9] = [
     KeyCode::Digit8,
     KeyCode::Digit9,
 ];
+
+/// The number key that it is, from 0 on.
+pub(super) fn number(code: KeyCode) -> Option<usize> {
+    NUMBERS.iter().position(|&key| key == code)
+}
 
 /// Where the pointer is, what it drags, and what was copied.
 #[derive(Default)]
@@ -136,7 +141,7 @@ impl Viewer<'_> {
                 }
             }
             _ => {
-                if let Some(number) = NUMBERS.iter().position(|&key| key == code) {
+                if let Some(number) = number(code) {
                     pilot.go_home(Some(number));
                 }
             }

@@ -7,6 +7,7 @@
 mod capture;
 mod display;
 mod fly;
+mod folders;
 mod gathering;
 mod input;
 mod loading;
@@ -14,6 +15,7 @@ mod overlay;
 mod pace;
 mod picture;
 mod pilot;
+mod recent;
 mod scenes;
 mod shaders;
 mod signals;
@@ -36,6 +38,7 @@ use loading::{Aim, Loading, Progress};
 use overlay::{Change, Fresh, Gui};
 use picture::{Occasion, Picture, Shape};
 use pilot::Pilot;
+use recent::Recent;
 use stage::Stage;
 use startup::Startup;
 use std::thread::JoinHandle;
@@ -107,6 +110,7 @@ fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
         outcome: Ok(()),
     };
     viewer.gui.compare_with(options.compare.clone());
+    viewer.gui.remember(Recent::load(folders::state()));
     viewer.gui.shaders_watched(shaders::watch(options.glsl.as_deref(), viewer.proxy.clone()));
     event_loop.run_app(&mut viewer).map_err(|error| display::missing(&error.to_string()))?;
     viewer.close()
@@ -213,6 +217,9 @@ impl Viewer<'_> {
         let unfinished = !picture.is_complete() || self.gui.is_behind();
         if moves || !shown || change > Change::Nothing || unfinished || self.remaining.is_some() {
             stage.window.request_redraw();
+        }
+        if let Some(scene) = self.gui.chosen() {
+            self.dropped(scene);
         }
         Ok(())
     }
@@ -340,7 +347,8 @@ impl ApplicationHandler<Event> for Viewer<'_> {
             return;
         }
         let result = match event {
-            WindowEvent::CloseRequested => {
+            // Destroyed: by another program, without asking.
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => {
                 self.closing = true;
                 Ok(())
             }

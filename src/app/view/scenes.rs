@@ -85,7 +85,7 @@ impl Viewer<'_> {
         }
         self.size = size;
         self.current = loading.options.clone();
-        self.gui.begin(&picture.scene);
+        self.gui.begin(&picture.scene, self.current.scene.as_deref());
         self.picture = Some(picture);
         self.notice = None;
         self.startup.reached("scene on the device");
@@ -102,7 +102,7 @@ impl Viewer<'_> {
         self.load(self.current.clone(), aim);
     }
 
-    /// A file was dropped on the window.
+    /// A file was dropped on the window, or chosen among those that were shown before.
     pub(super) fn dropped(&mut self, path: PathBuf) {
         if !["toml", "obj"].contains(&extension(&path).as_str()) {
             complain(Error::input(path, None, "this is no scene", "drop a scene (.toml) or an OBJ file"));

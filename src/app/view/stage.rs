@@ -1,11 +1,11 @@
 //! The open window and its device: where pictures go.
 
+use super::folders;
 use crate::app::args::ViewOptions;
 use crate::app::terminal::complain;
 use crate::error::{Error, Result};
 use crate::gpu::{Device, Image, Options, Shown, Swapchain, WindowOptions};
 use crate::scene::settings::Encoding;
-use std::path::PathBuf;
 use std::sync::Arc;
 use winit::dpi::PhysicalSize;
 use winit::event_loop::ActiveEventLoop;
@@ -36,7 +36,7 @@ impl Stage {
             remedy: "check the display".into(),
         })?;
         let window = Arc::new(window);
-        let wanted = WindowOptions { high: options.hdr, cache: cache_folder() };
+        let wanted = WindowOptions { high: options.hdr, cache: folders::cache() };
         let asked = Options { device: options.device.device.clone(), validate: options.device.validate };
         let (device, mut swapchain) =
             Device::open_for_window(&asked, &window, event_loop.owned_display_handle(), &wanted)?;
@@ -115,11 +115,4 @@ impl Stage {
     pub(super) fn height(&self) -> f64 {
         f64::from(self.window.inner_size().height.max(1))
     }
-}
-
-/// The user's folder for what can be made again (XDG Base Directory Specification), if there is one.
-fn cache_folder() -> Option<PathBuf> {
-    let named = |name| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
-    let folder = named("XDG_CACHE_HOME").or_else(|| named("HOME").map(|home| home.join(".cache")))?;
-    Some(folder.join("amas"))
 }

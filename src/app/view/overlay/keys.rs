@@ -3,7 +3,7 @@
 use egui::Context;
 
 /// Keys and what they do, in the words of the help.
-const KEYS: [(&str, &str); 22] = [
+const KEYS: [(&str, &str); 24] = [
     ("W A S D", "forward, left, backward, right"),
     ("Q E", "down, up"),
     ("drag", "look around"),
@@ -21,8 +21,10 @@ const KEYS: [(&str, &str); 22] = [
     ("F6 F7 F8", "depth, depth slice, cluster"),
     ("F9 F10 F11", "lights evaluated, lights evaluated per useful one, estimated error"),
     ("B", "bound of the error of area lights' closed form"),
+    ("G", "wireframe: the edges of triangles"),
     ("X", "beside the reference, the error against it, the picture alone"),
     ("F5", "load the scene again, as also happens when one of its files changes"),
+    ("L", "scenes shown before; a number loads one"),
     ("F12", "save the picture to amas_0001.png and .exr, or the next free number"),
     ("?", "these keys; also F1"),
     ("Esc", "stop loading; else close"),

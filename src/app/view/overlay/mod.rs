@@ -13,6 +13,7 @@ mod keys;
 mod legend;
 mod paint;
 mod picked;
+mod scenes;
 mod settings;
 mod truth;
 mod views;
@@ -20,7 +21,9 @@ mod views;
 pub(super) use settings::Change;
 
 use super::gathering::Status;
+use super::input::number;
 use super::picture::Picture;
+use super::recent::Recent;
 use super::stage::Stage;
 use crate::error::Result;
 use crate::frame::Timings;
@@ -36,7 +39,7 @@ use history::History;
 use inspect::Inspector;
 use paint::Textures;
 use picked::project;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use views::{VIEWS, Views};
@@ -73,6 +76,11 @@ pub(super) struct Gui {
     panels: bool,
     /// The list of keys is open.
     keys: bool,
+    /// The list of scenes that were shown before is open.
+    scenes: bool,
+    recent: Recent,
+    /// Of them, the one to show next.
+    chosen: Option<PathBuf>,
     tools: Option<Tools>,
     history: History,
     /// Of the last picture; `None` where nobody has asked.
@@ -109,7 +117,7 @@ struct Tools {
 impl Gui {
     /// Whether anything is to be drawn over the picture.
     fn is_shown(&self) -> bool {
-        let open = self.panels || self.keys || self.trouble.is_some();
+        let open = self.panels || self.keys || self.scenes || self.trouble.is_some();
         open || self.shows_view() || self.compare.mode != Mode::Off
     }
 
@@ -128,8 +136,21 @@ impl Gui {
         self.compare.file = file;
     }
 
-    /// A scene was loaded.
-    pub(super) fn begin(&mut self, scene: &Scene) {
+    /// The scenes that were shown before.
+    pub(super) fn remember(&mut self, recent: Recent) {
+        self.recent = recent;
+    }
+
+    /// The scene that the user wants next, once.
+    pub(super) fn chosen(&mut self) -> Option<PathBuf> {
+        self.chosen.take()
+    }
+
+    /// A scene was loaded, from that file.
+    pub(super) fn begin(&mut self, scene: &Scene, file: Option<&Path>) {
+        if let Some(file) = file {
+            self.recent.add(file);
+        }
         self.inspector.begin(scene);
         self.views.forget();
         self.compare.forget();
@@ -169,6 +190,14 @@ impl Gui {
         let open = match code {
             KeyCode::KeyO => &mut self.panels,
             KeyCode::Slash | KeyCode::F1 => &mut self.keys,
+            KeyCode::KeyL => &mut self.scenes,
+            _ if self.scenes
+                && let Some(number) = number(code) =>
+            {
+                self.chosen = self.recent.scenes().get(number).cloned();
+                self.scenes = false;
+                return true;
+            }
             KeyCode::KeyX => {
                 self.compare.next();
                 return true;
@@ -256,6 +285,11 @@ impl Gui {
             }
             if self.keys {
                 keys::show(context, &mut self.keys);
+            }
+            if self.scenes
+                && let Some(scene) = scenes::show(context, &self.recent, &mut self.scenes)
+            {
+                self.chosen = Some(scene);
             }
             if let Some(trouble) = &self.trouble {
                 complain(context, "Shaders", trouble);

@@ -20,7 +20,7 @@ const fn view(key: KeyCode, name: &'static str, quantity: Quantity) -> DebugView
 }
 
 /// Every view, in the order of its keys.
-pub(super) const VIEWS: [DebugView; 10] = [
+pub(super) const VIEWS: [DebugView; 11] = [
     view(KeyCode::F2, "albedo", Quantity::Albedo),
     view(KeyCode::F3, "normal", Quantity::Normal),
     view(KeyCode::F4, "roughness (alpha)", Quantity::Roughness),
@@ -31,6 +31,7 @@ pub(super) const VIEWS: [DebugView; 10] = [
     view(KeyCode::F10, "lights evaluated per useful one", Quantity::PairRatio),
     view(KeyCode::F11, "estimated relative error of many lights", Quantity::LightError),
     view(KeyCode::KeyB, "bound of the closed form's error, area lights", Quantity::LtcBound),
+    view(KeyCode::KeyG, "wireframe", Quantity::Wireframe),
 ];
 
 /// Which view is shown, and its picture.
