@@ -3,12 +3,12 @@
 mod baseline;
 mod figures;
 mod interrupt;
-mod load;
 mod statistics;
 mod subject;
 mod suites;
 
 use super::args::{BenchOptions, SceneOptions};
+use super::load::Since;
 use super::measure::{MEGABYTE, peak_host_memory};
 use super::outputs::{check_distinct, check_folder, same_file};
 use super::report::{self, Origin};
@@ -18,7 +18,6 @@ use baseline::{Baseline, print_comparisons};
 use figures::{Figures, Loads, Point};
 use indicatif::{ProgressBar, ProgressStyle};
 use interrupt::Interrupt;
-use load::Since;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use subject::{Source, Subject};

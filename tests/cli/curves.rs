@@ -84,3 +84,44 @@ fn many_lights() {
     let svg = String::from_utf8(folder.read("lights.svg")).unwrap();
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
 }
+
+#[test]
+fn gathered_light() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "indirect", "--quick", "--validate"]);
+    let files =
+        ["indirect.csv", "indirect.json", "indirect.md", "indirect.png", "indirect.svg", "scene.toml"];
+    assert_eq!(folder.names(), files);
+    let json = folder.json("indirect.json");
+    let points = json["points"].as_array().unwrap();
+    let csv = String::from_utf8(folder.read("indirect.csv")).unwrap();
+    assert_eq!(csv.lines().count(), points.len() + 1);
+    let of = |family: &str, count: u32, rounds: u32, key: &str| {
+        let point =
+            points.iter().find(|p| p["family"] == family && p["count"] == count && p["rounds"] == rounds);
+        point.and_then(|p| p[key].as_f64()).unwrap_or_else(|| panic!("{family}, {count}, {rounds}: no {key}"))
+    };
+    assert!(json["truth_error"].as_f64().unwrap() < 0.01);
+    for count in [1024, 16384] {
+        // Eight times the rounds are √8 times as exact.
+        let ratio = of("gathered", count, 1, "error") / of("gathered", count, 8, "error");
+        assert!((1.8..4.5).contains(&ratio), "{count}: {ratio}");
+        assert!(of("gathered", count, 8, "error") < 0.03);
+        assert!(of("gathered", count, 8, "bias").abs() < 0.03, "{count}");
+        for rounds in [2, 4, 8] {
+            let ratio = of("gathered", count, rounds, "estimate") / of("gathered", count, rounds, "error");
+            assert!((1.0 / 1.5..1.5).contains(&ratio), "{count}, {rounds}: {ratio}");
+        }
+    }
+    let ratio = of("paths", 1, 1, "error") / of("paths", 64, 1, "error");
+    assert!((5.0..12.0).contains(&ratio), "{ratio}");
+    assert!(of("paths", 64, 1, "bias").abs() < 0.03);
+    // The clamp takes light away, and what is not Lambertian is missing.
+    let [plain, clamped] = ["plain", "clamped"].map(|family| of(family, 256, 1, "bias"));
+    assert!(-0.3 < clamped && clamped < plain && plain < 0.1, "{clamped} {plain}");
+    assert_eq!(points.iter().filter(|p| p["default"] == true).count(), 1);
+    assert!(points.iter().any(|p| p["pareto"] == true));
+    assert!(printed.contains("plain VPLs, clamped"), "{printed}");
+    let page = String::from_utf8(folder.read("indirect.md")).unwrap();
+    assert!(page.contains("--chapter indirect --quick") && page.contains("| 16384 | 8 |"), "{page}");
+}
