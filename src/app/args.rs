@@ -363,6 +363,10 @@ pub(super) enum Chapter {
     Lights,
     /// Gathered light
     Indirect,
+    /// Formulas that break in float32, as they are usually written and as they ship
+    Hard,
+    /// What each feature costs where it is used, and where it is not
+    Features,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -3,7 +3,6 @@
 mod baseline;
 mod figures;
 mod interrupt;
-mod statistics;
 mod subject;
 mod suites;
 

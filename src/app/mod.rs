@@ -18,6 +18,7 @@ mod reference;
 mod refine;
 mod render;
 mod report;
+mod statistics;
 mod terminal;
 #[cfg(feature = "viewer")]
 mod view;

@@ -125,3 +125,60 @@ fn gathered_light() {
     let page = String::from_utf8(folder.read("indirect.md")).unwrap();
     assert!(page.contains("--chapter indirect --quick") && page.contains("| 16384 | 8 |"), "{page}");
 }
+
+#[test]
+fn hard_cases() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "hard", "--quick", "--validate"]);
+    assert_eq!(folder.names(), ["hard.csv", "hard.json", "hard.md", "scene.toml"]);
+    let json = folder.json("hard.json");
+    let points = json["points"].as_array().unwrap();
+    let csv = String::from_utf8(folder.read("hard.csv")).unwrap();
+    assert_eq!(csv.lines().count(), points.len() + 1);
+    let worst = |verdict: &serde_json::Value| {
+        (verdict["worst"].as_f64().unwrap(), verdict["not_finite"].as_u64().unwrap())
+    };
+    let mut formulas: Vec<&str> = points.iter().map(|p| p["formula"].as_str().unwrap()).collect();
+    formulas.dedup();
+    assert!(formulas.len() >= 12, "{formulas:?}");
+    for point in points {
+        // What ships is finite everywhere and right to what the contract grants form factors.
+        for shipped in
+            ["shipped_cpu", "shipped_device"].map(|key| &point[key]).into_iter().filter(|v| !v.is_null())
+        {
+            let (error, not_finite) = worst(shipped);
+            assert!(not_finite == 0 && error <= 2e-3, "{point}");
+        }
+    }
+    for formula in formulas {
+        let own = points.iter().filter(|p| p["formula"] == formula);
+        let breaks = |p: &serde_json::Value| {
+            let (naive, shipped) = (worst(&p["naive_device"]), worst(&p["shipped_device"]));
+            naive.1 > 0 || naive.0 > 10.0 * shipped.0
+        };
+        assert!(own.clone().any(breaks), "{formula} is not hard");
+        assert!(printed.contains(formula), "{printed}");
+    }
+}
+
+#[test]
+fn cost_of_features() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "features", "--quick", "--validate"]);
+    assert_eq!(folder.names(), ["features.csv", "features.json", "features.md", "scene.toml"]);
+    let json = folder.json("features.json");
+    let points = json["points"].as_array().unwrap();
+    assert_eq!(points[0]["feature"], "nothing");
+    for point in points {
+        assert!(printed.contains(point["feature"].as_str().unwrap()), "{printed}");
+        assert_eq!(point["base_ms"]["n"], json["rounds"], "{point}");
+        for key in ["unused", "used"] {
+            let ratio = &point[format!("{key}_ratio")];
+            assert_eq!(ratio.is_null(), point[key].is_null(), "{point}");
+            if let Some(ratio) = ratio.as_object() {
+                let [low, middle, high] = ["low", "ratio", "high"].map(|key| ratio[key].as_f64().unwrap());
+                assert!(0.0 < low && low <= middle && middle <= high, "{point}");
+            }
+        }
+    }
+}

@@ -1,6 +1,8 @@
 //! `amas report`: speed against error, measured on the device, a chapter a module.
 
 mod area;
+mod features;
+mod hard;
 mod indirect;
 mod letters;
 mod lights;
@@ -24,10 +26,12 @@ struct Row {
 }
 
 /// Every chapter, in the order in which they run.
-const CHAPTERS: [Row; 3] = [
+const CHAPTERS: [Row; 5] = [
     Row { chapter: Chapter::Area, files: &area::FILES, run: area::run },
     Row { chapter: Chapter::Lights, files: &lights::FILES, run: lights::run },
     Row { chapter: Chapter::Indirect, files: &indirect::FILES, run: indirect::run },
+    Row { chapter: Chapter::Hard, files: &hard::FILES, run: hard::run },
+    Row { chapter: Chapter::Features, files: &features::FILES, run: features::run },
 ];
 
 pub(super) fn run(options: &ReportOptions) -> Result<()> {
