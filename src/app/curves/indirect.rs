@@ -52,8 +52,8 @@ struct Extent {
 const FULL: Extent = Extent {
     size: [96, 72],
     vpls: &[256, 1024, 4096, 16384, 65536],
-    rounds: 16,
-    paths: 1024,
+    rounds: 32,
+    paths: 256,
     plain: &[16, 64, 256, 1024, 4096],
     repetitions: 3,
     truth: 8192,

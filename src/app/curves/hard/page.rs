@@ -59,7 +59,8 @@ pub(super) fn page(device: &DeviceInfo, points: &[Point], quick: bool) -> String
          Each formula as it is usually written and as it ships in `glsl/lib/`, on {rows} random inputs of each kind: worst \
          relative error against double precision, and how many values were infinite or no numbers (NaN). *Processor* is \
          float32 in Rust, *device* a compute shader (`glsl/probe/hard.comp`) that includes what ships unchanged. Directions \
-         are rounded to float32, and the truth is that of their unit vectors.\n\n\
+         are rounded to float32, and the truth is that of their unit vectors; of the two D, which need the half vector's direction \
+         only, that of the rounded ones.\n\n\
          | formula | inputs | usual, processor | shipped, processor | usual, device | shipped, device |\n\
          | --- | --- | --- | --- | --- | --- |\n",
         device.name, device.driver, device.api
