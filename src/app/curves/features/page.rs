@@ -63,8 +63,9 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
          three frames that take turns for {} rounds: without it, there but not used, and used. Ratios are of medians of CPU \
          time (device time where the device is none), with the bootstrap interval of {} % confidence; faster and slower are \
          those whose interval lies more than {} % off. What ships compiles no feature into a scene's pipelines that it does \
-         not use, so that *there but not used* is the same as compiled out, and its ratio ought to be 1. The first row is \
-         the same scene twice: what the method itself makes of nothing.\n\n\
+         not use, so that *there but not used* is the same as compiled out, and its ratio ought to be 1. Indirect light that is \
+         asked for but not yet gathered, and an area light that reaches nothing, are in the pipelines: theirs is what that \
+         costs. The first row is the same scene twice: what the method itself makes of nothing.\n\n\
          | feature | ms without | there but not used | ratio | used | ratio |\n\
          | --- | --- | --- | --- | --- | --- |\n",
         device.name,
