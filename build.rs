@@ -23,16 +23,21 @@ fn main() {
 
 /// Tells the benchmark which commit it measures; nothing outside a checkout.
 fn name_commit() {
-    // Every commit appends to this log. A file that is not there would rerun this script at every build.
-    let log = Path::new(".git/logs/HEAD");
-    if log.exists() {
-        println!("cargo:rerun-if-changed={}", log.display());
+    // Every commit appends to this log, in a worktree to one of its own. A file that is not there would rerun this script at
+    // every build.
+    if let Some(log) = git(&["--git-path", "logs/HEAD"]).filter(|log| Path::new(log).exists()) {
+        println!("cargo:rerun-if-changed={log}");
     }
-    let output = std::process::Command::new("git").args(["rev-parse", "--short=12", "HEAD"]).output();
-    let hash = output.ok().filter(|output| output.status.success());
-    if let Some(hash) = hash.and_then(|output| String::from_utf8(output.stdout).ok()) {
-        println!("cargo:rustc-env=AMAS_COMMIT={}", hash.trim());
+    if let Some(hash) = git(&["--short=12", "HEAD"]) {
+        println!("cargo:rustc-env=AMAS_COMMIT={hash}");
     }
+}
+
+/// What `git rev-parse` answers; `None` where it fails.
+fn git(arguments: &[&str]) -> Option<String> {
+    let output = std::process::Command::new("git").arg("rev-parse").args(arguments).output().ok()?;
+    let answer = output.status.success().then_some(output.stdout)?;
+    String::from_utf8(answer).ok().map(|text| text.trim().to_owned())
 }
 
 fn compile_all() -> Result<(), String> {

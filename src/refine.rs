@@ -61,6 +61,16 @@ impl<'a> Rounds<'a> {
         Some(Round { points, emitters, virtuals, spacing: set.spacing })
     }
 
+    /// Traces the lights of a round; `frame` gathers from them from now on.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] where memory is short.
+    pub fn light(&self, frame: &mut Frame, device: &Arc<Device>, number: u32) -> Result<()> {
+        let Some(round) = self.round(number, &|| true) else { return Ok(()) };
+        frame.set_gathered_lights(round.upload(device)?);
+        Ok(())
+    }
+
     /// Adds a round to the picture that `frame` rendered last, or what of it is left; what that took. Ends early, after a
     /// frame at least, where `proceed` says so.
     ///
@@ -79,12 +89,7 @@ impl<'a> Rounds<'a> {
         }
         let number = frame.gathered() / GATHER_FRAMES;
         if number == 0 || self.differ() {
-            timings.add(&Timings::of("trace", || {
-                let round = self.round(number, &|| true);
-                round.map_or(Ok(()), |round| {
-                    round.upload(device).map(|lights| frame.set_gathered_lights(lights))
-                })
-            })?);
+            timings.add(&Timings::of("trace", || self.light(frame, device, number))?);
         }
         loop {
             timings.add(&frame.gather(inputs)?);

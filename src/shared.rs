@@ -274,6 +274,32 @@ shared! {
         BSDF_PROBE_LAMBERT = 2;
         /// As the first, of the material as it comes out of its packing.
         BSDF_PROBE_PACKED = 3;
+        /// Formula of the probe of hard cases: `HARD_*`.
+        SPEC_HARD_FORMULA = 71;
+        /// Trowbridge and Reitz' D times π alpha².
+        HARD_DISTRIBUTION = 0;
+        /// Schlick's weight of white.
+        HARD_SCHLICK = 1;
+        /// Cosine at the half vector.
+        HARD_HALF_COSINE = 2;
+        /// Smith's height-correlated visibility times 2 cosθi.
+        HARD_VISIBILITY = 3;
+        /// Fresnel reflectance of a dielectric.
+        HARD_DIELECTRIC = 4;
+        /// Of a conductor.
+        HARD_CONDUCTOR = 5;
+        /// 1 − (1 − x)⁵.
+        HARD_COMPLEMENT = 6;
+        /// Oren and Nayar's rough share.
+        HARD_OREN_NAYAR = 7;
+        /// GTR1 without its constant.
+        HARD_CLEARCOAT = 8;
+        /// Principled subsurface.
+        HARD_SUBSURFACE = 9;
+        /// Square of a tangent's length.
+        HARD_TANGENT = 10;
+        /// Form factor of a quadrilateral times 2π.
+        HARD_FORM_FACTOR = 11;
         /// Specialisation constants of the probe of area lights' estimators: which, `TIER_*`.
         SPEC_TIER = 40;
         /// How many points it takes; of `TIER_SHIPPED` the `light_error` in thousandths.
@@ -986,6 +1012,17 @@ shared! {
             wo: vec4;
             /// Local frame; where a direction is sampled, two numbers in [0, 1).
             wi: vec4;
+        }
+        /// A row of the probe of hard cases: directions, or the corners of a quadrilateral, then parameters.
+        HardProbeRow {
+            /// Towards the viewer; the first corner.
+            a: vec4;
+            /// Towards the light; the second.
+            b: vec4;
+            /// Parameters; the third.
+            c: vec4;
+            /// The fourth.
+            d: vec4;
         }
         /// A row of the area lights' probe.
         AreaProbeRow {

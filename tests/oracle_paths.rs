@@ -81,6 +81,28 @@ fn closed_sphere() {
     }
 }
 
+/// The same without direct light; of a picture of that alone nothing is left, neither of the sky behind.
+#[test]
+fn without_direct_light() {
+    let text = format!(
+        "[render]\nsize = [16, 12]\nbackground = [1, 1, 1]\n{CAMERA}{}\
+         [[mesh]]\nshape = \"sphere\"\nradius = 1\nsegments = 192\nmaterial = \"m\"\n\
+         [[light]]\ntype = \"point\"\nposition = [0, 0, 0]\nintensity = [{PI}, {PI}, {PI}]\n",
+        matte(0.5)
+    );
+    let scene = scene(&text);
+    let indirect = |scene: &Scene, bounces| {
+        let integrator = Integrator::Path;
+        let all = Options { integrator, fewest_bounces: 1, bounces, ..Options::of_scene(scene) };
+        render(scene, &scene.cameras[0], &all).unwrap()
+    };
+    for (bounces, want) in [(1, 0.25), (2, 0.375), (u32::MAX, 0.5)] {
+        expect(&format!("1 to {bounces} bounces"), &indirect(&scene, bounces), want, 4e-3, 8e-4);
+    }
+    let empty = Scene { meshes: Vec::new(), ..scene };
+    assert_eq!(mean(&indirect(&empty, u32::MAX)), (0.0, 0.0));
+}
+
 const FIVE: [&str; 5] = [
     "type = \"matte\"\ncolor = [0.7, 0.5, 0.3]\nsigma = 20",
     "type = \"plastic\"\ndiffuse = [0.3, 0.4, 0.5]\nroughness = 0.4",

@@ -2,13 +2,12 @@
 
 mod baseline;
 mod figures;
-mod load;
-mod statistics;
 mod subject;
 mod suites;
 
 use super::args::{BenchOptions, SceneOptions};
 use super::interrupt::Interrupt;
+use super::load::Since;
 use super::measure::{MEGABYTE, peak_host_memory};
 use super::outputs::{check_distinct, check_folder, same_file};
 use super::report::{self, Origin};
@@ -17,7 +16,6 @@ use crate::error::{Error, Result};
 use baseline::{Baseline, print_comparisons};
 use figures::{Figures, Loads, Point};
 use indicatif::{ProgressBar, ProgressStyle};
-use load::Since;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use subject::{Source, Subject};

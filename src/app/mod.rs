@@ -11,12 +11,14 @@ mod fit;
 mod fit_maps;
 mod info;
 mod interrupt;
+mod load;
 mod measure;
 mod outputs;
 mod reference;
 mod refine;
 mod render;
 mod report;
+mod statistics;
 mod terminal;
 #[cfg(feature = "viewer")]
 mod view;

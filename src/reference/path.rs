@@ -26,6 +26,8 @@ pub(super) struct Transport<'a> {
     pub(super) points: &'a PointLights,
     /// Bounces between the first surface and the light, at most.
     pub(super) bounces: u32,
+    /// And at least.
+    pub(super) fewest_bounces: u32,
 }
 
 /// A surface on the path.
@@ -51,7 +53,10 @@ impl<'a> Transport<'a> {
         let (mut light, mut throughput) = (DVec3::ZERO, DVec3::ONE);
         let mut vertex = self.vertex(ray, hit);
         for bounce in 0.. {
-            light += throughput * self.sampled(&vertex, random);
+            let counts = bounce >= self.fewest_bounces;
+            if counts {
+                light += throughput * self.sampled(&vertex, random);
+            }
             let surface = &vertex.surface;
             let wi = surface.bsdf.sample(surface.wo, random.pair());
             let pdf = surface.bsdf.pdf(surface.wo, wi);
@@ -63,7 +68,9 @@ impl<'a> Transport<'a> {
             let Some(prospect) = vertex.shadow.prospect(world).filter(|_| throughput != DVec3::ZERO) else {
                 break;
             };
-            light += throughput * self.found(&vertex, &prospect, pdf);
+            if counts {
+                light += throughput * self.found(&vertex, &prospect, pdf);
+            }
             let Some(hit) = prospect.wall.filter(|hit| bounce < self.bounces && self.geometry().drawn(hit))
             else {
                 break;

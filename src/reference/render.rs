@@ -43,6 +43,8 @@ pub struct Options {
     pub paths: u32,
     /// Most bounces between the surface that is seen and the light, for [`Integrator::Path`]; 0 is direct light.
     pub bounces: u32,
+    /// Fewest bounces, for [`Integrator::Path`]: 1 leaves out direct light, and the luminaires and background that are seen.
+    pub fewest_bounces: u32,
     /// Shows a bar, if stderr is a terminal.
     pub progress: bool,
 }
@@ -59,6 +61,7 @@ impl Options {
             tolerance: 1e-3,
             paths: 64,
             bounces: u32::MAX,
+            fewest_bounces: 0,
             progress: false,
         }
     }
@@ -186,13 +189,14 @@ impl World<'_> {
         let beyond = hit.map_or(view.t_max, |hit| hit.t);
         let luminaires = self.emitters.iter().filter_map(|emitter| emitter.seen_by(&view.ray));
         let in_view = luminaires.filter(|(t, _)| (view.t_min..=beyond).contains(t));
-        if let Some((_, radiance)) = in_view.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            return Estimate { value: radiance, standard_error: DVec3::ZERO };
-        }
-        let Some(hit) = hit else {
-            let background = self.scene.render.background.map(f64::from);
-            return Estimate { value: background.into(), standard_error: DVec3::ZERO };
+        let at_once = |radiance| {
+            let wanted = self.options.integrator != Integrator::Path || self.options.fewest_bounces == 0;
+            Estimate { value: if wanted { radiance } else { DVec3::ZERO }, standard_error: DVec3::ZERO }
         };
+        if let Some((_, radiance)) = in_view.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            return at_once(radiance);
+        }
+        let Some(hit) = hit else { return at_once(self.scene.render.background.map(f64::from).into()) };
         let surface = Surface::new(self.scene, &view.ray, &hit);
         let occluders = Occluders { geometry: &self.geometry, emitters: &self.emitters };
         if self.options.integrator == Integrator::Path {
@@ -206,8 +210,9 @@ impl World<'_> {
     }
 
     fn paths(&self, occluders: &Occluders, ray: &Ray, hit: &Hit, seed: u64) -> Estimate {
-        let Options { paths, bounces, .. } = self.options;
-        let transport = Transport { scene: self.scene, occluders, points: &self.points, bounces };
+        let Options { paths, bounces, fewest_bounces, .. } = self.options;
+        let points = &self.points;
+        let transport = Transport { scene: self.scene, occluders, points, bounces, fewest_bounces };
         let mut random = Random::new(seed);
         area::mean(&(0..paths).map(|_| transport.radiance(ray, hit, &mut random)).collect::<Vec<_>>())
     }

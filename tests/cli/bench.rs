@@ -55,6 +55,23 @@ fn suites_and_scenes() {
     }
 }
 
+/// Frames of gathered light, and nothing else.
+#[test]
+fn gathering() {
+    let folder = Folder::new();
+    let words = ["--size", "16x9", "--frames", "2", "--warmup", "0", "--validate", "--json", "b.json"];
+    folder.done(&[&["bench", "--suite", "indirect"], &words[..]].concat());
+    let json = folder.json("b.json");
+    let points = json["points"].as_array().unwrap();
+    assert!(points.len() >= 3);
+    for point in points {
+        let passes = point["passes"].as_array().unwrap();
+        let names: Vec<_> = passes.iter().map(|pass| pass["name"].as_str().unwrap()).collect();
+        assert_eq!(names, ["gather"], "{point}");
+        assert_eq!((&point["passes"][0]["cpu"]["n"], &point["pairs"]), (&json!(2), &Value::Null));
+    }
+}
+
 /// From nothing to a picture, step by step.
 #[test]
 fn startup() {

@@ -84,3 +84,101 @@ fn many_lights() {
     let svg = String::from_utf8(folder.read("lights.svg")).unwrap();
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
 }
+
+#[test]
+fn gathered_light() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "indirect", "--quick", "--validate"]);
+    let files =
+        ["indirect.csv", "indirect.json", "indirect.md", "indirect.png", "indirect.svg", "scene.toml"];
+    assert_eq!(folder.names(), files);
+    let json = folder.json("indirect.json");
+    let points = json["points"].as_array().unwrap();
+    let csv = String::from_utf8(folder.read("indirect.csv")).unwrap();
+    assert_eq!(csv.lines().count(), points.len() + 1);
+    let of = |family: &str, count: u32, rounds: u32, key: &str| {
+        let point =
+            points.iter().find(|p| p["family"] == family && p["count"] == count && p["rounds"] == rounds);
+        point.and_then(|p| p[key].as_f64()).unwrap_or_else(|| panic!("{family}, {count}, {rounds}: no {key}"))
+    };
+    assert!(json["truth_error"].as_f64().unwrap() < 0.01);
+    for count in [1024, 16384] {
+        // Eight times the rounds are √8 times as exact.
+        let ratio = of("gathered", count, 1, "error") / of("gathered", count, 8, "error");
+        assert!((1.8..4.5).contains(&ratio), "{count}: {ratio}");
+        assert!(of("gathered", count, 8, "error") < 0.03);
+        assert!(of("gathered", count, 8, "bias").abs() < 0.03, "{count}");
+        for rounds in [2, 4, 8] {
+            let ratio = of("gathered", count, rounds, "estimate") / of("gathered", count, rounds, "error");
+            assert!((1.0 / 1.5..1.5).contains(&ratio), "{count}, {rounds}: {ratio}");
+        }
+    }
+    let ratio = of("paths", 1, 1, "error") / of("paths", 64, 1, "error");
+    assert!((5.0..12.0).contains(&ratio), "{ratio}");
+    assert!(of("paths", 64, 1, "bias").abs() < 0.03);
+    // The clamp takes light away, and what is not Lambertian is missing.
+    let [plain, clamped] = ["plain", "clamped"].map(|family| of(family, 256, 1, "bias"));
+    assert!(-0.3 < clamped && clamped < plain && plain < 0.1, "{clamped} {plain}");
+    assert_eq!(points.iter().filter(|p| p["default"] == true).count(), 1);
+    assert!(points.iter().any(|p| p["pareto"] == true));
+    assert!(printed.contains("plain VPLs, clamped"), "{printed}");
+    let page = String::from_utf8(folder.read("indirect.md")).unwrap();
+    assert!(page.contains("--chapter indirect --quick") && page.contains("| 16384 | 8 |"), "{page}");
+}
+
+#[test]
+fn hard_cases() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "hard", "--quick", "--validate"]);
+    assert_eq!(folder.names(), ["hard.csv", "hard.json", "hard.md", "scene.toml"]);
+    let json = folder.json("hard.json");
+    let points = json["points"].as_array().unwrap();
+    let csv = String::from_utf8(folder.read("hard.csv")).unwrap();
+    assert_eq!(csv.lines().count(), points.len() + 1);
+    let worst = |verdict: &serde_json::Value| {
+        (verdict["worst"].as_f64().unwrap(), verdict["not_finite"].as_u64().unwrap())
+    };
+    let mut formulas: Vec<&str> = points.iter().map(|p| p["formula"].as_str().unwrap()).collect();
+    formulas.dedup();
+    assert!(formulas.len() >= 12, "{formulas:?}");
+    for point in points {
+        // What ships is finite everywhere and right to what the contract grants form factors.
+        for shipped in
+            ["shipped_cpu", "shipped_device"].map(|key| &point[key]).into_iter().filter(|v| !v.is_null())
+        {
+            let (error, not_finite) = worst(shipped);
+            assert!(not_finite == 0 && error <= 2e-3, "{point}");
+        }
+    }
+    for formula in formulas {
+        let own = points.iter().filter(|p| p["formula"] == formula);
+        let breaks = |p: &serde_json::Value| {
+            let (naive, shipped) = (worst(&p["naive_device"]), worst(&p["shipped_device"]));
+            naive.1 > 0 || naive.0 > 10.0 * shipped.0
+        };
+        assert!(own.clone().any(breaks), "{formula} is not hard");
+        assert!(printed.contains(formula), "{printed}");
+    }
+}
+
+#[test]
+fn cost_of_features() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "features", "--quick", "--validate"]);
+    assert_eq!(folder.names(), ["features.csv", "features.json", "features.md", "scene.toml"]);
+    let json = folder.json("features.json");
+    let points = json["points"].as_array().unwrap();
+    assert_eq!(points[0]["feature"], "nothing");
+    for point in points {
+        assert!(printed.contains(point["feature"].as_str().unwrap()), "{printed}");
+        assert_eq!(point["base_ms"]["n"], json["rounds"], "{point}");
+        for key in ["unused", "used"] {
+            let ratio = &point[format!("{key}_ratio")];
+            assert_eq!(ratio.is_null(), point[key].is_null(), "{point}");
+            if let Some(ratio) = ratio.as_object() {
+                let [low, middle, high] = ["low", "ratio", "high"].map(|key| ratio[key].as_f64().unwrap());
+                assert!(0.0 < low && low <= middle && middle <= high, "{point}");
+            }
+        }
+    }
+}

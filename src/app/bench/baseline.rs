@@ -1,9 +1,9 @@
 //! Figures of an earlier run, and how those of this one compare.
 
 use super::super::measure::median;
+use super::super::statistics::{CONFIDENCE, MARGIN, Ratio, Verdict};
 use super::super::terminal::print;
 use super::figures::{Loads, Point, Samples};
-use super::statistics::{CONFIDENCE, MARGIN, Ratio, Verdict};
 use crate::error::{Error, Result};
 use crate::gpu::DeviceInfo;
 use serde::{Deserialize, Serialize};

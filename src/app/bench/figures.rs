@@ -1,9 +1,9 @@
 //! What is written: the figures of every point, and the measurements that they were made of.
 
+use super::super::load::Load;
 use super::super::measure::{Figure, MEGABYTE};
 use super::super::report::{self, Clusters, Origin, Pairs, Pass};
 use super::baseline::{Baseline, Comparison};
-use super::load::Load;
 use super::subject::Subject;
 use crate::frame::Timings;
 use crate::passes::floors::Floors;

@@ -4,15 +4,17 @@ use super::super::args::BenchOptions;
 use super::super::default_scene;
 use super::super::report;
 use super::super::{FRAME_RATE, camera, in_scene, load_scene, of_size, warn_of_gathered_light};
-use super::suites::Case;
+use super::suites::{Case, Measured};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, PassTime, Timings};
 use crate::gpu::{Device, Options};
 use crate::gpu_scene::GpuScene;
 use crate::passes::floors::Floors;
 use crate::passes::pairs::PairCount;
+use crate::refine::Rounds;
 use crate::scene::{Camera, Origin, RenderSettings, Scene};
 use cpu_time::ProcessTime;
+use glam::Vec3;
 use indicatif::ProgressBar;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -59,8 +61,11 @@ impl Source {
         }
     }
 
-    fn is_startup(&self) -> bool {
-        matches!(self, Self::Suite(Case { startup: true, .. }))
+    fn measured(&self) -> Measured {
+        match self {
+            Self::File(_) => Measured::Frame,
+            Self::Suite(case) => case.measured,
+        }
     }
 
     fn load(&self, options: &BenchOptions) -> Result<Scene> {
@@ -123,19 +128,38 @@ impl Stage {
         }
         let frame = Frame::new(&device, &gpu_scene, FrameSettings::new(&scene.render, &camera))?;
         laps.lap("pipelines");
-        Ok(Self { device, frame, render: scene.render, camera, frames: 0 })
+        let mut stage = Self { device, frame, render: scene.render.clone(), camera, frames: 0 };
+        if source.measured() == Measured::Gathering {
+            stage.begin_gathering(&scene, gpu_scene.origin)?;
+        }
+        Ok(stage)
     }
 
     fn render(&mut self, split: bool) -> Result<Timings> {
         self.frames += 1;
-        self.frame.render(&FrameInputs {
-            camera: &self.camera,
-            time: f64::from(self.frames) / FRAME_RATE,
-            samples: self.render.samples,
-            exposure: self.render.exposure,
-            split,
-            progress: ProgressBar::hidden(),
-        })
+        self.frame.render(&inputs(&self.camera, &self.render, self.frames, split))
+    }
+
+    /// The picture that light is gathered for, and the lights of a round, from which all frames gather.
+    fn begin_gathering(&mut self, scene: &Scene, origin: Vec3) -> Result<()> {
+        self.render(false)?;
+        let rounds = Rounds::new(scene, origin, self.frame.gathers(), 0.0);
+        rounds.light(&mut self.frame, &self.device, 0)
+    }
+
+    fn gather(&mut self) -> Result<Timings> {
+        self.frame.gather(&inputs(&self.camera, &self.render, self.frames, false))
+    }
+}
+
+fn inputs<'a>(camera: &'a Camera, render: &RenderSettings, frame: u32, split: bool) -> FrameInputs<'a> {
+    FrameInputs {
+        camera,
+        time: f64::from(frame) / FRAME_RATE,
+        samples: render.samples,
+        exposure: render.exposure,
+        split,
+        progress: ProgressBar::hidden(),
     }
 }
 
@@ -165,7 +189,7 @@ impl Subject {
 
     /// Counts what the picture that was last rendered has.
     pub(super) fn count(&mut self, options: &BenchOptions) -> Result<()> {
-        if !self.source.is_startup() {
+        if self.source.measured() == Measured::Frame {
             // Without warm-up no picture is there yet.
             self.stage.render(false)?;
             self.pairs = Some(self.stage.frame.pairs()?);
@@ -178,7 +202,7 @@ impl Subject {
     pub(super) fn measure(&mut self, options: &BenchOptions, split: bool) -> Result<()> {
         let timings = self.repeat(options, false)?;
         self.whole.push(timings);
-        if split && !self.source.is_startup() {
+        if split && self.source.measured() == Measured::Frame {
             let timings = self.repeat(options, true)?;
             self.split.push(timings);
         }
@@ -186,9 +210,14 @@ impl Subject {
     }
 
     fn repeat(&mut self, options: &BenchOptions, split: bool) -> Result<Timings> {
-        if !self.source.is_startup() {
-            return self.stage.render(split);
+        match self.source.measured() {
+            Measured::Frame => self.stage.render(split),
+            Measured::Gathering => self.stage.gather(),
+            Measured::Start => self.start(options),
         }
+    }
+
+    fn start(&mut self, options: &BenchOptions) -> Result<Timings> {
         let mut laps = Laps::start();
         let mut stage = Stage::new(&self.source, options, &mut laps)?;
         stage.render(false)?;
@@ -200,9 +229,9 @@ impl Subject {
         Ok(timings)
     }
 
-    /// What tells the passes' CPU time: a start's steps are timed in any case.
+    /// What tells the passes' CPU time: the steps of a start, and gathering alone, are timed in any case.
     pub(super) fn passes(&self) -> Vec<report::Pass> {
-        let split = if self.source.is_startup() { &self.whole } else { &self.split };
+        let split = if self.source.measured() == Measured::Frame { &self.split } else { &self.whole };
         report::passes(&self.whole, split)
     }
 }

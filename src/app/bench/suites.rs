@@ -5,6 +5,19 @@ use super::super::default_scene;
 
 /// Ground, walls and sixty spheres of all five BSDFs, in a box of lights.
 const HALL: &str = include_str!("../../../scenes/million.toml");
+/// A box lit by one panel, most of it by way of its walls.
+const ROOM: &str = include_str!("../../../scenes/indirect.toml");
+
+/// What is measured of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Measured {
+    /// A frame.
+    Frame,
+    /// A frame of gathered light, from lights that were traced before.
+    Gathering,
+    /// From nothing to the first picture.
+    Start,
+}
 
 /// A point of a suite.
 pub(super) struct Case {
@@ -12,8 +25,7 @@ pub(super) struct Case {
     pub(super) name: String,
     /// A scene file's text.
     pub(super) toml: String,
-    /// Measured from nothing to the first picture; otherwise a frame is.
-    pub(super) startup: bool,
+    pub(super) measured: Measured,
 }
 
 /// Names of points, and their scenes.
@@ -22,10 +34,11 @@ type Points = Vec<(String, String)>;
 type Row = (Suite, &'static str, fn() -> Points);
 
 /// Every suite, in the order in which they run.
-const SUITES: [Row; 5] = [
+const SUITES: [Row; 6] = [
     (Suite::Lights, "lights", lights),
     (Suite::Area, "area", area),
     (Suite::Bsdf, "bsdf", bsdf),
+    (Suite::Indirect, "indirect", indirect),
     (Suite::Passes, "passes", passes),
     (Suite::Startup, "startup", startup),
 ];
@@ -39,7 +52,11 @@ pub(super) fn cases(wanted: &[Suite]) -> Vec<Case> {
             let case = move |(name, toml)| Case {
                 name: format!("{prefix}/{name}"),
                 toml,
-                startup: *suite == Suite::Startup,
+                measured: match suite {
+                    Suite::Startup => Measured::Start,
+                    Suite::Indirect => Measured::Gathering,
+                    _ => Measured::Frame,
+                },
             };
             points().into_iter().map(case)
         })
@@ -95,6 +112,30 @@ fn bsdf() -> Points {
     };
     materials.map(|material| (material.0.into(), scene(material))).into()
 }
+
+/// Light by way of walls, by the number of virtual lights and by materials; and point lights with shadows.
+fn indirect() -> Points {
+    let small = ROOM.replacen("size = [640, 480]", "size = [160, 120]", 1);
+    let matte = "type = \"matte\"\ncolor = [0.6, 0.6, 0.6]";
+    let points = "type = \"points\"\ngenerate = { count = 1024, seed = 1, min = [-3, 1, -3], max = [3, 2, 3], \
+         intensity = [0.1, 0.3], range = 2 }";
+    let room = |vpls: u32| small.replacen("vpls = 16384", &format!("vpls = {vpls}"), 1);
+    let all_matte = small.replacen(FLOOR, matte, 1).replacen(
+        "type = \"metal\"\npreset = \"gold\"\nalpha = 0.2",
+        matte,
+        1,
+    );
+    vec![
+        ("room_1024".into(), room(1024)),
+        ("room_65536".into(), room(65536)),
+        ("room_matte_16384".into(), all_matte),
+        ("points_1024".into(), lit(&[points.into()], "shadows = true")),
+    ]
+}
+
+/// The room's glossy floor.
+const FLOOR: &str =
+    "type = \"plastic\"\ndiffuse = [0.3, 0.3, 0.3]\nspecular = [0.9, 0.9, 0.9]\neta = 1.8\nalpha = 0.12";
 
 /// Each pass where it is the dearest. The balls' vertices fit into a core's own cache: with 16 times as many, 25 MB, the
 /// prepass of the same program took 58 to 88 CPU ms from start to start, by what else used the memory.
@@ -160,7 +201,7 @@ fn lit(lights: &[String], keys: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::load_embedded;
+    use crate::scene::{Model, RenderSettings, load_embedded};
 
     /// Every point's scene is sound and is what its name says: no replacement of a text has found nothing.
     #[test]
@@ -180,6 +221,13 @@ mod tests {
                     let ranged = scene.point_lights.iter().all(|light| light.range.is_some());
                     assert_eq!(ranged, kind != "unranged", "{name}");
                 }
+                ("indirect", name) => {
+                    let RenderSettings { vpls, shadows, .. } = scene.render;
+                    let [_, count] = name.rsplit_once('_').map(<[&str; 2]>::from).unwrap();
+                    assert!(shadows && (vpls as usize).max(points).to_string() == count, "{name}");
+                    let all_matte = scene.materials.iter().all(|material| material.model == Model::Matte);
+                    assert_eq!(all_matte, name.starts_with("room_matte"), "{name}");
+                }
                 ("area", name) => assert_eq!((points, area), (0, if name == "sixteen" { 16 } else { 1 })),
                 ("startup", "million") => assert_eq!(points, 1 << 20),
                 _ => assert_eq!(area, 0, "{}", case.name),
@@ -197,6 +245,10 @@ mod tests {
         assert!(of(&[]).is_empty());
         assert!(of(&[Suite::Bsdf]).iter().all(|name| name.starts_with("bsdf/")));
         assert_eq!(of(&[Suite::Area, Suite::Bsdf]), [of(&[Suite::Area]), of(&[Suite::Bsdf])].concat());
-        assert!(cases(&[Suite::All]).iter().all(|case| case.startup == case.name.starts_with("startup/")));
+        assert!(
+            cases(&[Suite::All])
+                .iter()
+                .all(|case| (case.measured == Measured::Start) == case.name.starts_with("startup/"))
+        );
     }
 }

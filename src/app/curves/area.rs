@@ -19,7 +19,7 @@ use figures::{FLOOR, Point, complete};
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tiers::{Bench, Family, Pipelines, TIERS};
 
@@ -39,13 +39,8 @@ struct Extent {
 const FULL: Extent = Extent { configurations: 64, repetitions: 9, models: 2, shapes: 3, tolerance: 2e-4 };
 const QUICK: Extent = Extent { configurations: 12, repetitions: 1, models: 1, shapes: 1, tolerance: 1e-3 };
 
-/// What is printed.
-pub(super) fn summary(figures: &Figures) -> String {
-    page::summary(figures)
-}
-
 /// Everything that was measured.
-pub(super) struct Figures {
+struct Figures {
     points: Vec<Point>,
     extent: String,
     quick: bool,
@@ -63,7 +58,15 @@ struct File<'a> {
     points: &'a [Point],
 }
 
-pub(super) fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
+/// Measures and writes; what is printed.
+pub(super) fn run(device: &Arc<Device>, quick: bool, out: &Path) -> Result<String> {
+    let figures = measure(device, quick)?;
+    device.require_silence()?;
+    write(&FILES.map(|name| out.join(name)), device.info(), &figures)?;
+    Ok(page::summary(&figures))
+}
+
+fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
     let extent = if quick { QUICK } else { FULL };
     let models = &MODELS[MODELS.len() - extent.models..];
     let shapes = &SHAPES[..extent.shapes];
@@ -116,7 +119,7 @@ fn times(bench: &Bench<'_>, repetitions: usize, bar: &ProgressBar) -> Result<Vec
 }
 
 /// Writes [`FILES`], each to its path.
-pub(super) fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
+fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
     let [csv, json, markdown, svg, png] = paths;
     write_atomically(csv, |file| page::csv(file, &figures.points))?;
     let content = File {

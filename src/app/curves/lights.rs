@@ -20,7 +20,7 @@ use cpu_time::ProcessTime;
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use sweeps::{GROWTH, SWEEPS, Setting, Sweep};
 
@@ -70,7 +70,7 @@ pub(super) struct Point {
 }
 
 /// Everything that was measured.
-pub(super) struct Figures {
+struct Figures {
     points: Vec<Point>,
     extent: String,
     quick: bool,
@@ -85,7 +85,15 @@ struct File<'a> {
     points: &'a [Point],
 }
 
-pub(super) fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
+/// Measures and writes; what is printed.
+pub(super) fn run(device: &Arc<Device>, quick: bool, out: &Path) -> Result<String> {
+    let figures = measure(device, quick)?;
+    device.require_silence()?;
+    write(&FILES.map(|name| out.join(name)), device.info(), &figures)?;
+    Ok(page::summary(&figures))
+}
+
+fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
     let extent = if quick { QUICK } else { FULL };
     let settings: usize = SWEEPS.iter().map(|sweep| sweep.settings.len().div_ceil(extent.step)).sum();
     let bar = progress(settings * (2 + extent.repetitions));
@@ -208,7 +216,7 @@ fn point(sweep: &Sweep, subject: &Subject) -> Result<Point> {
 }
 
 /// Writes [`FILES`], each to its path.
-pub(super) fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
+fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
     let [csv, json, markdown, svg, png] = paths;
     write_atomically(csv, |file| page::csv(file, &figures.points))?;
     let content = File {
@@ -222,9 +230,4 @@ pub(super) fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures
     let plot = plot::LightsPlot(&figures.points);
     plots::svg(svg, &plot)?;
     plots::png(png, &plot)
-}
-
-/// What is printed.
-pub(super) fn summary(figures: &Figures) -> String {
-    page::summary(figures)
 }

@@ -1,6 +1,9 @@
 //! `amas report`: speed against error, measured on the device, a chapter a module.
 
 mod area;
+mod features;
+mod hard;
+mod indirect;
 mod letters;
 mod lights;
 mod plot;
@@ -12,27 +15,33 @@ use crate::error::Result;
 use crate::gpu::{Device, Options};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A chapter: the files that it writes, and what measures and writes it and says what is printed.
+struct Row {
+    chapter: Chapter,
+    files: &'static [&'static str],
+    run: fn(&Arc<Device>, bool, &Path) -> Result<String>,
+}
+
+/// Every chapter, in the order in which they run.
+const CHAPTERS: [Row; 5] = [
+    Row { chapter: Chapter::Area, files: &area::FILES, run: area::run },
+    Row { chapter: Chapter::Lights, files: &lights::FILES, run: lights::run },
+    Row { chapter: Chapter::Indirect, files: &indirect::FILES, run: indirect::run },
+    Row { chapter: Chapter::Hard, files: &hard::FILES, run: hard::run },
+    Row { chapter: Chapter::Features, files: &features::FILES, run: features::run },
+];
 
 pub(super) fn run(options: &ReportOptions) -> Result<()> {
-    let wanted = |chapter| options.chapter.is_none_or(|only| only == chapter);
-    let area = area::FILES.map(|name| options.out.join(name));
-    let lights = lights::FILES.map(|name| options.out.join(name));
-    let all = [(Chapter::Area, &area), (Chapter::Lights, &lights)];
-    let written = all.into_iter().filter(|(chapter, _)| wanted(*chapter)).flat_map(|(_, files)| files);
-    written.into_iter().try_for_each(|path| check_folder(path))?;
+    let wanted = |row: &&Row| options.chapter.is_none_or(|only| only == row.chapter);
+    let files = CHAPTERS.iter().filter(wanted).flat_map(|row| row.files);
+    files.into_iter().try_for_each(|name| check_folder(&options.out.join(name)))?;
     let device =
         Device::open(&Options { device: options.device.device.clone(), validate: options.device.validate })?;
-    if wanted(Chapter::Area) {
-        let figures = area::measure(&device, options.quick)?;
-        device.require_silence()?;
-        area::write(&area, device.info(), &figures)?;
-        print(area::summary(&figures))?;
-    }
-    if wanted(Chapter::Lights) {
-        let figures = lights::measure(&device, options.quick)?;
-        device.require_silence()?;
-        lights::write(&lights, device.info(), &figures)?;
-        print(lights::summary(&figures))?;
+    for row in CHAPTERS.iter().filter(wanted) {
+        print((row.run)(&device, options.quick, &options.out)?)?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! What else runs on the machine, from the kernel's accounts: times taken on a busy one mislead.
 
-use super::super::terminal::complain;
+use super::terminal::complain;
 use cpu_time::ProcessTime;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
@@ -83,6 +83,22 @@ impl Load {
     /// Whether times taken meanwhile are to be doubted.
     pub(super) fn is_busy(&self) -> bool {
         self.others + self.stolen > TOLERATED * self.processors as f64
+    }
+
+    /// What a page says of times taken meanwhile.
+    pub(super) fn sentence(&self) -> String {
+        let others = self.others + self.stolen;
+        if self.is_busy() {
+            return format!(
+                "**The machine was busy meanwhile**: others took {others:.2} of its {} processors, so times are inflated by an \
+                 unknown factor, and their order is to be doubted where they are close.",
+                self.processors
+            );
+        }
+        format!(
+            "Nothing else ran to speak of: others took {others:.2} of {} processors meanwhile.",
+            self.processors
+        )
     }
 
     /// Warns of a busy machine.

@@ -1,6 +1,6 @@
 //! Whether two sets of measurements differ: a bootstrap interval of the ratio of their medians.
 
-use super::super::measure::median;
+use super::measure::median;
 use serde::Serialize;
 
 /// Confidence of the interval.

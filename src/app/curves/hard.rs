@@ -1,0 +1,171 @@
+//! The chapter on hard cases: formulas that break in float32, as they are usually written and as they ship, on the
+//! processor and on the device, against double precision.
+
+mod cases;
+mod formulas;
+mod page;
+
+use super::super::report::{self, Origin};
+use super::progress;
+use crate::error::Result;
+use crate::gpu::{Device, DeviceInfo, Specialization, shaders};
+use crate::image::write_atomically;
+use crate::probe;
+use crate::reference::sampler::Random;
+use crate::shared::{HardProbeRow, SPEC_HARD_FORMULA};
+use formulas::{FORMULAS, Formula, Slots};
+use glam::{DVec4, Vec4};
+use serde::Serialize;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What is written.
+pub(super) const FILES: [&str; 3] = ["hard.csv", "hard.json", "hard.md"];
+
+/// Errors of what is smaller are relative to this: the least normal float32 is 1.2e-38.
+const FLOOR: f64 = 1e-30;
+
+/// Rows of a case.
+const FULL: usize = 1 << 16;
+const QUICK: usize = 1 << 12;
+
+/// How wrong a formula is over the rows of a case.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+struct Verdict {
+    /// Worst relative error of the finite values.
+    worst: f64,
+    /// Mean of the same.
+    mean: f64,
+    /// Values that are infinite or no numbers.
+    not_finite: usize,
+}
+
+impl Verdict {
+    fn of(values: impl Iterator<Item = f32>, truths: &[f64]) -> Self {
+        let (mut verdict, mut sum) = (Self::default(), 0.0);
+        for (value, truth) in values.map(f64::from).zip(truths) {
+            if !value.is_finite() {
+                verdict.not_finite += 1;
+                continue;
+            }
+            let error = (value - truth).abs() / truth.abs().max(FLOOR);
+            verdict.worst = verdict.worst.max(error);
+            sum += error;
+        }
+        verdict.mean = sum / (truths.len() - verdict.not_finite).max(1) as f64;
+        verdict
+    }
+}
+
+/// A formula in a case.
+#[derive(Serialize)]
+struct Point {
+    formula: &'static str,
+    case: &'static str,
+    naive: &'static str,
+    shipped: &'static str,
+    rows: usize,
+    naive_cpu: Verdict,
+    /// `null` where it has no twin on the processor.
+    shipped_cpu: Option<Verdict>,
+    naive_device: Verdict,
+    shipped_device: Verdict,
+}
+
+#[derive(Serialize)]
+struct File<'a> {
+    #[serde(flatten)]
+    origin: Origin<'a>,
+    quick: bool,
+    floor: f64,
+    points: &'a [Point],
+}
+
+/// Measures and writes; what is printed.
+pub(super) fn run(device: &Arc<Device>, quick: bool, out: &Path) -> Result<String> {
+    let bar = progress(FORMULAS.len());
+    let mut points = Vec::new();
+    for formula in FORMULAS {
+        bar.set_message(formula.name);
+        points.extend(judge(device, formula, if quick { QUICK } else { FULL })?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    device.require_silence()?;
+    write(&FILES.map(|name| out.join(name)), device.info(), &points, quick)?;
+    Ok(page::summary(&points))
+}
+
+fn judge(device: &Arc<Device>, formula: &Formula, rows: usize) -> Result<Vec<Point>> {
+    let cases = formula.cases.iter().enumerate().map(|(index, case)| {
+        let mut random = Random::new(u64::from(formula.number) << 8 | index as u64);
+        let inputs: Vec<Slots> = (0..rows).map(|_| (case.make)(&mut random)).collect();
+        let specialization = Specialization::default().with(SPEC_HARD_FORMULA, formula.number);
+        let probed = inputs.iter().map(|&[a, b, c, d]| HardProbeRow { a, b, c, d }).collect::<Vec<_>>();
+        let values: Vec<[f32; 2]> = probe::run(device, shaders::PROBE_HARD_COMP, &specialization, &probed)?;
+        let truths: Vec<f64> = inputs.iter().map(|slots| (formula.truth)(&formula.exact(slots))).collect();
+        let single = |f: fn(&[Vec4; 4]) -> f32| {
+            Verdict::of(inputs.iter().map(|slots| f(&slots.map(Vec4::from))), &truths)
+        };
+        Ok(Point {
+            formula: formula.name,
+            case: case.name,
+            naive: formula.naive_text,
+            shipped: formula.shipped_text,
+            rows,
+            naive_cpu: single(formula.naive),
+            shipped_cpu: formula.shipped.map(single),
+            naive_device: Verdict::of(values.iter().map(|pair| pair[0]), &truths),
+            shipped_device: Verdict::of(values.iter().map(|pair| pair[1]), &truths),
+        })
+    });
+    cases.collect()
+}
+
+impl Formula {
+    /// The numbers that the device has; of directions, their unit vectors.
+    fn exact(&self, slots: &Slots) -> [DVec4; 4] {
+        let mut exact = slots.map(|slot| DVec4::from_array(slot.map(f64::from)));
+        for slot in &mut exact[..self.directions] {
+            *slot = slot.truncate().normalize_or_zero().extend(0.0);
+        }
+        exact
+    }
+}
+
+/// Writes [`FILES`], each to its path.
+fn write(paths: &[PathBuf; 3], device: &DeviceInfo, points: &[Point], quick: bool) -> Result<()> {
+    let [csv, json, markdown] = paths;
+    write_atomically(csv, |file| page::csv(file, points))?;
+    report::save(json, &File { origin: Origin::of(device), quick, floor: FLOOR, points })?;
+    write_atomically(markdown, |file| file.write_all(page::page(device, points, quick).as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The usual form and the one that ships are the same function: in double precision they agree where the usual one has
+    /// digits left, which at alpha = 1e-3 and 1e-8 from the horizon is half of its sixteen.
+    #[test]
+    fn both_forms_are_one_function() {
+        for formula in FORMULAS {
+            let mut checked = 0;
+            for case in formula.cases {
+                let mut random = Random::new(1);
+                for _ in 0..500 {
+                    let slots = formula.exact(&(case.make)(&mut random));
+                    let [naive, truth] = [(formula.exact_naive)(&slots), (formula.truth)(&slots)];
+                    assert!(truth.is_finite(), "{}, {}: {slots:?}", formula.name, case.name);
+                    if naive.is_finite() && truth.abs() > case.plain {
+                        let error = (naive / truth - 1.0).abs();
+                        assert!(error < 1e-4, "{}, {}: {naive} for {truth}", formula.name, case.name);
+                        checked += 1;
+                    }
+                }
+            }
+            assert!(checked >= 100, "{}: {checked}", formula.name);
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The chapter on hard cases as text.
+
+use super::formulas::FORMULAS;
+use super::{Point, Verdict};
+use crate::gpu::DeviceInfo;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
+    writeln!(
+        file,
+        "formula,case,rows,naive_cpu_worst,naive_cpu_not_finite,shipped_cpu_worst,shipped_cpu_not_finite,\
+         naive_device_worst,naive_device_not_finite,shipped_device_worst,shipped_device_mean,shipped_device_not_finite"
+    )?;
+    points.iter().try_for_each(|p| {
+        let pair = |v: &Verdict| format!("{:.3e},{}", v.worst, v.not_finite);
+        writeln!(
+            file,
+            "\"{}\",\"{}\",{},{},{},{},{:.3e},{:.3e},{}",
+            p.formula,
+            p.case,
+            p.rows,
+            pair(&p.naive_cpu),
+            p.shipped_cpu.as_ref().map_or_else(|| ",".into(), pair),
+            pair(&p.naive_device),
+            p.shipped_device.worst,
+            p.shipped_device.mean,
+            p.shipped_device.not_finite
+        )
+    })
+}
+
+fn cell(verdict: &Verdict) -> String {
+    let infinite =
+        if verdict.not_finite > 0 { format!(", {} NaN", verdict.not_finite) } else { String::new() };
+    format!("{:.1e}{infinite}", verdict.worst)
+}
+
+/// What is printed.
+pub(super) fn summary(points: &[Point]) -> String {
+    let mut text =
+        format!("{:<28}{:<52}{:>22}  {:>22}\n", "hard case", "", "usual, on the device", "shipped");
+    for p in points {
+        let (naive, shipped) = (cell(&p.naive_device), cell(&p.shipped_device));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{:<28}{:<52}{naive:>22}  {shipped:>22}", p.formula, p.case);
+    }
+    text.trim_end().to_owned()
+}
+
+pub(super) fn page(device: &DeviceInfo, points: &[Point], quick: bool) -> String {
+    let commit = option_env!("AMAS_COMMIT").unwrap_or("an unknown commit");
+    let option = if quick { " --quick" } else { "" };
+    let rows = points.first().map_or(0, |p| p.rows);
+    let mut text = format!(
+        "# Hard cases in float32\n\n\
+         Written by `amas report --chapter hard{option} --out DIR` at {commit} on {} ({}, Vulkan {}). `hard.csv` and \
+         `hard.json` have every figure. Nothing here is timed.\n\n\
+         Each formula as it is usually written and as it ships in `glsl/lib/`, on {rows} random inputs of each kind: worst \
+         relative error against double precision, and how many values were infinite or no numbers (NaN). *Processor* is \
+         float32 in Rust, *device* a compute shader (`glsl/probe/hard.comp`) that includes what ships unchanged. Directions \
+         are rounded to float32, and the truth is that of their unit vectors; of the two D, which need the half vector's direction \
+         only, that of the rounded ones.\n\n\
+         | formula | inputs | usual, processor | shipped, processor | usual, device | shipped, device |\n\
+         | --- | --- | --- | --- | --- | --- |\n",
+        device.name, device.driver, device.api
+    );
+    for p in points {
+        let shipped_cpu = p.shipped_cpu.as_ref().map_or_else(|| "–".into(), cell);
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {shipped_cpu} | {} | {} |",
+            p.formula,
+            p.case,
+            cell(&p.naive_cpu),
+            cell(&p.naive_device),
+            cell(&p.shipped_device)
+        );
+    }
+    text.push_str("\nThe two forms of each:\n\n| formula | usual | shipped |\n| --- | --- | --- |\n");
+    for formula in FORMULAS {
+        let escaped = |form: &str| form.replace('|', "\\|");
+        let (usual, shipped) = (escaped(formula.naive_text), escaped(formula.shipped_text));
+        let _ = writeln!(text, "| {} | {usual} | {shipped} |", formula.name);
+    }
+    text
+}
