@@ -124,8 +124,14 @@ fn rough_and_smooth_materials() {
 /// Lobes as wide as nodes: to them each node is a spread, not a point.
 #[test]
 fn glossy_surfaces() {
-    let materials =
-        [("metal", 0.4), ("metal", 0.2), ("metal", 0.1), ("metal", 0.05), ("plastic", 0.4), ("plastic", 0.05)];
+    let materials = [
+        ("metal", 0.4),
+        ("metal", 0.2),
+        ("metal", 0.1),
+        ("metal", 0.05),
+        ("plastic", 0.4),
+        ("plastic", 0.05),
+    ];
     for (material, alpha) in materials {
         for kind in [Kind::Uniform, Kind::BeyondFar, Kind::HalfBehind] {
             println!("{material} of alpha {alpha}, {kind:?}");
@@ -318,6 +324,52 @@ fn all_lights_within_one_cluster() {
     let world = world(&matte(0), all);
     let found = figures(&world, &brute(&world), 0.002);
     assert_kept(&found, 0.002, "one cluster");
+}
+
+/// Sum of all values over that of brute force, less 1.
+fn energy(picture: &HdrImage, brute: &HdrImage) -> f64 {
+    let sum = |image: &HdrImage| image.pixels.iter().flatten().map(|&v| f64::from(v)).sum::<f64>();
+    sum(picture) / sum(brute) - 1.0
+}
+
+/// The frame is rendered again with more room, and nothing is lost.
+#[test]
+fn cuts_that_do_not_fit_get_room() {
+    let mut world = world(&matte(0), lights(Kind::Uniform, 30_000));
+    world.render.size = [320, 200];
+    let mut rig = cut(&world, 0.0021);
+    let room = |rig: &Rig| rig.frame.cluster_targets().1.capacity.texels;
+    let before = room(&rig);
+    let picture = rig.render();
+    let counters = rig.frame.counters();
+    println!("{before} texels at first, {} needed", counters.list_texels);
+    assert!(counters.list_texels > before, "they do not fit at first");
+    assert!(counters.list_texels <= room(&rig) && counters.cut_given_up == 0);
+    let energy = energy(&picture, &brute(&world));
+    assert!(energy.abs() <= 0.0021, "{energy}");
+}
+
+/// 100,000 lights in the plane of the floor, which the horizon cuts at each of its pixels: these would open more nodes than a
+/// draw may have steps. The frame says so, and evaluates every light instead.
+#[test]
+fn cuts_of_too_many_steps_are_given_up_for_every_light() {
+    let mut all = lights(Kind::Uniform, 100_000);
+    for (i, light) in all.iter_mut().enumerate() {
+        let height = if i % 3 == 0 { 1e-6 * light.position.y } else { 0.0 };
+        light.position = (light.position * Vec3::new(1.0, 0.0, 1.0)).with_y(height);
+        light.intensity *= if i % 5 == 0 { 1e4 } else { 1.0 };
+    }
+    let mut world = world(&matte(0), all);
+    world.render.size = [16, 16];
+    let mut rig = cut(&world, 0.01);
+    assert!(rig.passes().contains(&"cluster"), "there are cuts to begin with");
+    let picture = rig.render();
+    println!("{:?}", rig.frame.counters());
+    assert_eq!(rig.frame.counters().cut_entries, 0, "they are given up");
+    assert_eq!(rig.frame.light_error().unwrap(), 0.0);
+    let energy = energy(&picture, &brute(&world));
+    println!("{energy:e}");
+    assert!(energy.abs() <= 1e-6, "{energy}");
 }
 
 /// An error of 0 or next to it evaluates every light, and so does a scene with few of them.
