@@ -13,8 +13,8 @@
 #include "lib/light.glsl"
 #include "lib/cut.glsl"
 #include "bind/surface.glsl"
-#include "direct/moments.glsl"
 #include "direct/lobe.glsl"
+#include "direct/moments.glsl"
 
 layout(location = 0) out vec4 radiance;
 

@@ -35,8 +35,8 @@ Lobe lobe_here(Surface s) {
     return Lobe(2.0 * cosine * n - wo, width * width, strength * width * width);
 }
 
-// Of the limit, what a lobe may make of a node that is large against it: such nodes err by one sign, too dark, because tails
-// of lobes are convex. With all of it metal of alpha 0.05 was 0.65 of the light_error too dark.
+// Of the limit, what a lobe may make of a node that is large against it: such nodes err by one sign. Half of it
+// changes next to nothing.
 const float LOBE_SHARE = 0.125;
 
 // True too for a node so weak, or so far from the mirror direction, that what the lobe makes of it is within the limit

@@ -25,12 +25,13 @@ pub(super) struct Limits {
 /// Calibrated on the scenes of `tests/render/cut.rs`, each for several seeds and turned in several ways, which changes the
 /// order of the lights and with it the tree. The bias of few nodes far away is what binds, for all pixels share it; the 99th
 /// percentile of matte surfaces stays below the `light_error` itself, because pixels look after their horizons. Above 0.01 the least opening
-/// binds too, nearer than which no series converges.
+/// binds too, nearer than which no series converges. Metal and plastic of alpha 0.05 to 0.4 stay within half the
+/// `light_error` in the mean and a sixth in bias.
 pub(super) fn limits(light_error: f32) -> Limits {
     Limits {
         open: (2.2 * (0.005 / light_error).powf(0.75)).max(1.2),
         share: (5.0 * light_error * light_error).min(0.045 * light_error),
-        lobe: (6.0 * light_error.sqrt()).min(1.2),
+        lobe: (8.5 * light_error.sqrt()).min(1.7),
         horizon: light_error,
     }
 }

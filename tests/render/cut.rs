@@ -121,15 +121,28 @@ fn rough_and_smooth_materials() {
     }
 }
 
-/// What lobes add to the error is in the estimate.
+/// Lobes as wide as nodes: to them each node is a spread, not a point.
 #[test]
-fn the_estimate_covers_glossy_surfaces() {
-    for (material, alpha) in [("plastic", 0.4), ("plastic", 0.05), ("metal", 0.4), ("metal", 0.05)] {
-        println!("{material} of alpha {alpha}");
-        let world = world(&glossy(material, alpha), lights(Kind::Uniform, 20_000));
-        let brute = brute(&world);
-        for light_error in [0.05, 0.01] {
-            assert_estimate(&figures(&world, &brute, light_error), material);
+fn glossy_surfaces() {
+    let materials = [
+        ("metal", 0.4),
+        ("metal", 0.2),
+        ("metal", 0.1),
+        ("metal", 0.05),
+        ("plastic", 0.4),
+        ("plastic", 0.05),
+    ];
+    for (material, alpha) in materials {
+        for kind in [Kind::Uniform, Kind::BeyondFar, Kind::HalfBehind] {
+            println!("{material} of alpha {alpha}, {kind:?}");
+            let world = world(&glossy(material, alpha), lights(kind, 20_000));
+            let brute = brute(&world);
+            for light_error in [0.05, 0.01] {
+                let found = figures(&world, &brute, light_error);
+                let context = format!("{material} of alpha {alpha}, {kind:?}, at {light_error}");
+                assert_kept(&found, light_error, &context);
+                assert_estimate(&found, &context);
+            }
         }
     }
 }
@@ -311,6 +324,43 @@ fn all_lights_within_one_cluster() {
     let world = world(&matte(0), all);
     let found = figures(&world, &brute(&world), 0.002);
     assert_kept(&found, 0.002, "one cluster");
+}
+
+/// Sum of all values over that of brute force, less 1.
+fn energy(picture: &HdrImage, brute: &HdrImage) -> f64 {
+    let sum = |image: &HdrImage| image.pixels.iter().flatten().map(|&v| f64::from(v)).sum::<f64>();
+    sum(picture) / sum(brute) - 1.0
+}
+
+/// The frame is rendered again with more room, and nothing is lost.
+#[test]
+fn cuts_that_do_not_fit_get_room() {
+    let mut world = world(&matte(0), lights(Kind::Uniform, 30_000));
+    world.render.size = [320, 200];
+    let mut rig = cut(&world, 0.0021);
+    let room = |rig: &Rig| rig.frame.cluster_targets().1.capacity.texels;
+    let before = room(&rig);
+    let picture = rig.render();
+    let counters = rig.frame.counters();
+    println!("{before} texels at first, {} needed", counters.list_texels);
+    assert!(counters.list_texels > before, "they do not fit at first");
+    assert!(counters.list_texels <= room(&rig) && counters.cut_given_up == 0);
+    let energy = energy(&picture, &brute(&world));
+    assert!(energy.abs() <= 0.0021, "{energy}");
+}
+
+/// 90,000 lights so far away that float32 has no squares of their distances: no node of them is far enough to stand for its
+/// lights, and their leaves are more than a draw may have steps for. The frame says so, and evaluates every light instead.
+#[test]
+fn cuts_of_too_many_steps_are_given_up_for_every_light() {
+    let mut all = lights(Kind::Uniform, 100_000);
+    all[10_000..].iter_mut().for_each(|light| light.position = (light.position - Vec3::Y) * 1e20);
+    let mut world = world(FIVE_MATERIALS, all);
+    world.render.size = [16, 16];
+    let mut rig = cut(&world, 0.01);
+    let picture = rig.render();
+    assert_eq!((rig.frame.counters().cut_entries, rig.frame.light_error().unwrap()), (0, 0.0), "no cuts");
+    assert_eq!(picture, brute(&world), "every light");
 }
 
 /// An error of 0 or next to it evaluates every light, and so does a scene with few of them.
