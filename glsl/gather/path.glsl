@@ -10,6 +10,10 @@
 
 // Bounces before a path may be ended by chance.
 const uint SAFE_BOUNCES = 2u;
+// Of the bound, where one light is drawn from the tree instead of being chosen among many: what is near is left to the path
+// from twice as far. Without it, the error after 8 rounds was 1.04, 1.04,
+// 1.04 and 1.34 times as large.
+const float LONE = 0.25;
 
 // Light of the scene's own lights.
 vec3 own_lights(Vertex v) {
@@ -22,8 +26,8 @@ vec3 own_lights(Vertex v) {
 // Bounces are those that are left.
 vec3 virtual_lights(Vertex v, bool seen, uint bounces) {
     if (gather.virtuals.y == 0u || bounces == 0u) return vec3(0.0);
-    if (seen) return chosen(v, first_light, gather.virtuals, 0.0, gather.bound, bounces, WITH_NORMALS);
-    return drawn(v, gather.virtuals, UNBOUNDED, gather.bound, bounces, WITH_NORMALS);
+    if (seen) return chosen(v, first_light, gather.virtuals, 0.0, v.bound, bounces, WITH_NORMALS);
+    return drawn(v, gather.virtuals, UNBOUNDED, v.bound, bounces, WITH_NORMALS);
 }
 
 // Along a sampled direction: light of the background, or the next vertex with what the path has to find there.
@@ -43,7 +47,7 @@ Step step_from(Vertex v, vec3 throughput, inout vec3 radiance) {
     Step next = Step(v, throughput, false);
     if (throughput == vec3(0.0)) return next;
     // Gathering takes over whatever is farther.
-    float reach = GATHER_LAMBERT ? inversesqrt(gather.bound) : 1e30;
+    float reach = GATHER_LAMBERT ? inversesqrt(v.bound) : 1e30;
     Hit hit = nearest_hit(v.origin, direction, reach);
     if (hit.triangle == NO_HIT) {
         radiance += throughput * frame.background;
@@ -51,10 +55,10 @@ Step step_from(Vertex v, vec3 throughput, inout vec3 radiance) {
     }
     HitSurface s = hit_surface(hit, direction);
     vec3 n = s.geometric_normal;
-    float share = gathered_share(gather.bound, reflected, wi.z, -dot(n, direction), sqr(hit.t));
+    float share = gathered_share(v.bound, reflected, wi.z, -dot(n, direction), sqr(hit.t));
     surface_model = s.model;
     vec3 origin = offset_origin(s.position, n, hit.t);
-    next.vertex = vertex_at(s.position, origin, n, s.world_from_local, s.parameters, -direction);
+    next.vertex = vertex_at(s.position, origin, n, s.world_from_local, s.parameters, -direction, LONE * gather.bound);
     next.vertex.taken = bsdf_lambert(s.parameters) * (share * INV_PI);
     next.goes_on = s.drawn && !(next.vertex.is_lambert && share >= 1.0);
     return next;

@@ -20,10 +20,11 @@ struct Vertex {
     // What of its BSDF the lights stand for that were gathered at the vertex before, as a constant.
     vec3 taken;
     bool is_lambert;  // nothing but that constant times a cosine
+    float bound;  // largest geometry term that virtual lights are gathered with, m⁻²
 };
 
 Vertex vertex_at(
-        vec3 position, vec3 origin, vec3 geometric, mat3 world_from_local, BsdfParameters p, vec3 wo) {
+        vec3 position, vec3 origin, vec3 geometric, mat3 world_from_local, BsdfParameters p, vec3 wo, float bound) {
     Vertex v;
     v.position = position;
     v.origin = origin;
@@ -33,6 +34,7 @@ Vertex vertex_at(
     v.bsdf = bsdf_setup(p, local);
     v.sampling = bsdf_sampling(p, local);
     v.taken = vec3(0.0);
+    v.bound = bound;
     v.is_lambert = IS_MODEL(MODEL_MATTE) && p.sigma == 0.0;
     return v;
 }

@@ -27,7 +27,7 @@ SeenPlace place_at(ivec2 pixel) {
     return SeenPlace(seen_position(pixel), unpack_unit(texelFetch(words_c, pixel, 0).z), exists);
 }
 
-Vertex visible_at(ivec2 pixel) {
+Vertex visible_at(ivec2 pixel, float bound) {
     SurfaceWords words = SurfaceWords(
             texelFetch(words_a, pixel, 0), texelFetch(words_b, pixel, 0), texelFetch(words_c, pixel, 0));
     PackedBsdf bsdf = bsdf_words(words);
@@ -36,7 +36,7 @@ Vertex visible_at(ivec2 pixel) {
     vec3 wo = PERSPECTIVE ? normalize(frame.eye - position) : -frame.forward;
     vec3 geometric = unpack_unit(words.c.w);
     vec3 origin = offset_origin(position, geometric, distance(position, frame.eye));
-    return vertex_at(position, origin, geometric, frame_words(words), bsdf_unpack(bsdf), wo);
+    return vertex_at(position, origin, geometric, frame_words(words), bsdf_unpack(bsdf), wo, bound);
 }
 
 #endif
