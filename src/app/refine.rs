@@ -80,10 +80,10 @@ impl<'a> Refining<'a> {
         if !self.interrupted() {
             return Ok(());
         }
-        Err(Error::Interrupted(format!(
-            "{} pictures are saved, the last as far as it came",
-            self.errors.len()
-        )))
+        Err(Error::Interrupted(match self.errors.len() {
+            1 => "the picture is saved as far as it came".into(),
+            several => format!("{several} pictures are saved, the last as far as it came"),
+        }))
     }
 }
 

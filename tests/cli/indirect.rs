@@ -152,3 +152,29 @@ fn deterministic() {
     let one = render("1");
     assert!(render("3") == one);
 }
+
+/// Ctrl-C: the picture at hand is saved as far as it came, and no other is begun.
+#[cfg(unix)]
+#[test]
+fn interrupted() {
+    use std::process::{Command, Stdio};
+    let folder = folder();
+    let words = ["render", "room.toml", "--frames", "0..9999", "--indirect-error", "1", "-o", "p_%04d.pfm"];
+    let mut command = folder.command(&words);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    while !folder.path("p_0000.pfm").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    let output = child.wait_with_output().unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
+    let pictures = folder.names().iter().filter(|name| name.starts_with("p_")).count();
+    let said = match pictures {
+        1 => "interrupted: the picture is saved".into(),
+        several => format!("interrupted: {several} pictures are saved"),
+    };
+    assert!(stderr.contains(&said), "{pictures}: {stderr}");
+    assert!(folder.names().iter().all(|name| !name.starts_with('.')), "nothing half-written");
+}
