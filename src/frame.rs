@@ -3,6 +3,7 @@
 //! prepass → cluster → resolve → forward (direct → indirect → present)
 
 mod adopt;
+mod constants;
 mod cut;
 mod encoded;
 mod gather;
@@ -12,12 +13,12 @@ mod retune;
 mod settings;
 mod timing;
 mod views;
+mod work;
 
 pub use settings::{FrameInputs, FrameSettings};
 pub use timing::{PassTime, Timings};
 
-use crate::camera_constants::camera_constants;
-use crate::draws::{VisibleDraw, visible};
+use crate::draws::VisibleDraw;
 use crate::error::Result;
 use crate::gpu::{Buffer, BufferUse, Commands, DescriptorSets, Device, Timestamps, Use};
 use crate::gpu_scene::GpuScene;
@@ -27,14 +28,11 @@ use crate::passes::gather::{Gather, GatheredLights};
 use crate::passes::prepass::Prepass;
 use crate::passes::resolve::Resolve;
 use crate::passes::{PassInputs, View};
-use crate::scene::settings::FrontEnd;
 use crate::shared::{self, Counters, FrameConstants};
 use crate::targets::Targets;
 use std::sync::Arc;
 use timing::Stopwatch;
-
-/// Up to so many area lights every pixel evaluates them all.
-const AREA_LIGHTS_WITHOUT_MASKS: u32 = 8;
+use work::{clustered, pass_names, work};
 
 /// A scene's frame on a device.
 pub struct Frame {
@@ -334,41 +332,6 @@ impl Frame {
         cmd.memory_barrier(Use::TransferWrite, Use::HostRead);
     }
 
-    fn update_constants(&mut self, inputs: &FrameInputs<'_>, sample: u32) -> Result<()> {
-        let jitter = jitter(sample, inputs.samples);
-        let origin = self.scene.origin.as_dvec3();
-        let mut camera = inputs.camera.clone();
-        camera.position -= origin;
-        camera.target -= origin;
-        let range = self.scene.median_range;
-        let mut constants = camera_constants(&camera, self.settings.size, jitter, self.scene.bounds, range);
-        // N samples share a pixel, so each filters its textures over an N-th of it.
-        constants.sample_index = sample;
-        constants.light_error = self.settings.light_error;
-        constants.texture_bias = -0.5 * (inputs.samples as f32).log2();
-        constants.light_count = self.scene.lights.lights.len() as u32;
-        constants.direct_begin = if self.settings.brute_force { 0 } else { self.scene.lights.ranged as u32 };
-        constants.top_nodes = self.scene.lights.top_nodes();
-        constants.max_list = self.settings.max_lights_per_cluster;
-        constants.cluster_capacity = self.lists.capacity.clusters;
-        constants.parent_capacity = self.lists.capacity.parents;
-        [constants.parent_texels, constants.sibling_texels, constants.list_texels] =
-            self.lists.capacity.first_texels().map(|texel| texel as u32);
-        constants.list_capacity = self.lists.capacity.texels;
-        constants.fold_nodes = if self.work.folded { shared::FOLD_NODES } else { 0 };
-        constants.area_lights = self.scene.area.count;
-        constants.area_texels = self.lists.capacity.mask;
-        if self.work.cut {
-            cut::limits(self.settings.light_error).set(&mut constants, &self.scene.lights);
-        }
-        constants.background = self.settings.background;
-        self.slices = constants.slice_count;
-        self.draws = visible(&self.scene.draws, &constants);
-        self.luminaires = visible(&self.scene.area.luminaires, &constants);
-        self.last = constants;
-        self.constants.write(&[constants])
-    }
-
     fn view(&self) -> View<'_> {
         View { scene: &self.scene, draws: &self.draws, luminaires: &self.luminaires, frame: self.set.get(0) }
     }
@@ -397,59 +360,6 @@ fn pass_inputs<'a>(device: &'a Arc<Device>, scene: &'a GpuScene, settings: &Fram
     PassInputs { device, scene, perspective: settings.perspective, lanes }
 }
 
-fn work(device: &Device, scene: &GpuScene, settings: &FrameSettings) -> Work {
-    let lights = &scene.lights;
-    let drawn = !scene.draws.is_empty();
-    let gathered = gather::wanted(scene, settings);
-    let first_unranged = if settings.brute_force { 0 } else { lights.ranged };
-    let shaded = drawn && (settings.preview || !gathered.points);
-    let lists = shaded && first_unranged > 0;
-    let compute = match settings.front_end {
-        FrontEnd::Auto => device.is_cpu(),
-        FrontEnd::Fragment => false,
-        FrontEnd::Compute => true,
-    };
-    let resolve = lists && compute && !scene.resolved.specializations.is_empty();
-    let area = if drawn { scene.area.count } else { 0 };
-    let unranged = shaded && lights.lights.len() > first_unranged;
-    let cut = unranged
-        && !lights.moments.is_empty()
-        && settings.light_error >= cut::LEAST_ERROR
-        && !settings.brute_force;
-    Work {
-        unranged: unranged && !cut,
-        cut,
-        first_unranged: first_unranged as u32,
-        background: settings.background != [0.0; 3],
-        lists,
-        resolve,
-        indirect: lists && !(resolve && scene.resolved.has_all()),
-        folded: false,
-        area,
-        masks: area > AREA_LIGHTS_WITHOUT_MASKS && !settings.brute_force,
-        luminaires: !scene.area.luminaires.is_empty(),
-        gathered,
-        tonemap: settings.tonemap,
-        encoding: settings.encoding,
-    }
-}
-
-fn clustered(work: Work) -> bool {
-    work.lists || work.cut || work.masks
-}
-
-fn pass_names(work: Work) -> Vec<&'static str> {
-    let passes = [
-        ("prepass", true),
-        ("cluster", clustered(work)),
-        ("resolve", work.resolve),
-        ("direct", true),
-        ("indirect", work.indirect),
-        ("present", true),
-    ];
-    passes.into_iter().filter(|(_, recorded)| *recorded).map(|(name, _)| name).collect()
-}
-
 fn tiles_of(size: [u32; 2]) -> [u32; 2] {
     size.map(|side| side.div_ceil(shared::TILE_SIZE))
 }
@@ -457,14 +367,4 @@ fn tiles_of(size: [u32; 2]) -> [u32; 2] {
 fn tiles(size: [u32; 2]) -> u32 {
     let [x, y] = tiles_of(size);
     x * y
-}
-
-/// Offset of a sample from its pixel's centre: the R2 sequence (Roberts 2018), starting at the centre.
-fn jitter(index: u32, samples: u32) -> [f64; 2] {
-    if samples == 1 {
-        return [0.0; 2];
-    }
-    // Powers of the inverse of the plastic number.
-    [0.754_877_666_246_692_8, 0.569_840_290_998_053_2]
-        .map(|alpha| (0.5 + alpha * f64::from(index)).fract() - 0.5)
 }

@@ -34,13 +34,8 @@ impl Hits {
         let heap = Heap::append(scene, &mut texels);
         let materials = Materials::new(scene, heap);
         Ok(Self {
-            texels: Image::of_texels(device, "hits", BVH_WIDTH_LOG2, texels)?,
-            records: Image::of_texels(
-                device,
-                "materials of hits",
-                materials::WIDTH_LOG2,
-                materials.texels.clone(),
-            )?,
+            texels: Image::of_texels(device, "hits", BVH_WIDTH_LOG2, &texels)?,
+            records: Image::of_texels(device, "materials of hits", materials::WIDTH_LOG2, &materials.texels)?,
             materials: Some(materials),
         })
     }
@@ -50,7 +45,7 @@ impl Hits {
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short.
     pub fn none(device: &Arc<Device>) -> Result<Self> {
-        let image = || Image::of_texels(device, "no hits", 0, Vec::new());
+        let image = || Image::of_texels(device, "no hits", 0, &[]);
         Ok(Self { materials: None, texels: image()?, records: image()? })
     }
 
@@ -66,7 +61,7 @@ impl Hits {
             None => Ok(()),
             Some(materials) => {
                 materials.set(scene, material);
-                self.records.upload(&[&materials.texels], Use::Texture)
+                self.records.replace_texels(&materials.texels)
             }
         }
     }

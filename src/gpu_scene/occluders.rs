@@ -20,7 +20,7 @@ impl Occluders {
     /// [`crate::Error::Vulkan`] where memory is short, or where there are more triangles than the device's textures hold:
     /// some four million, or sixteen on most.
     pub fn new(device: &Arc<Device>, bvh: &Bvh) -> Result<Self> {
-        let texels = Image::of_texels(device, "occluders", BVH_WIDTH_LOG2, bvh.texels())?;
+        let texels = Image::of_texels(device, "occluders", BVH_WIDTH_LOG2, &bvh.texels())?;
         let specialization = vec![(shared::SPEC_OCCLUDER_MASKS, u32::from(bvh.has_masks()))];
         Ok(Self { specialization, texels })
     }

@@ -11,31 +11,40 @@ use std::sync::Arc;
 const STAGED: usize = 8 << 20;
 
 impl Image {
-    /// A texture of one long row of texels, broken into rows of 2 ^ `width_log2` texels; at least one, padded with zeros.
+    /// A texture of one long row of texels, broken into rows of 2 ^ `width_log2` texels and padded with zeros.
     ///
     /// # Errors
     /// [`crate::Error::Vulkan`] where memory is short, or where there are more rows than the device's textures have.
-    pub fn of_texels(
-        device: &Arc<Device>,
-        name: &str,
-        width_log2: u32,
-        mut texels: Vec<[u32; 4]>,
-    ) -> Result<Self> {
+    pub fn of_texels(device: &Arc<Device>, name: &str, width_log2: u32, texels: &[[u32; 4]]) -> Result<Self> {
         let width = 1 << width_log2;
-        texels.resize(texels.len().next_multiple_of(width).max(width), [0; 4]);
+        // Never a power of two of rows: llvmpipe compiles what reads a texture anew where that changes.
+        let rows = texels.len().div_ceil(width).max(3);
+        let rows = rows + usize::from(rows.is_power_of_two());
         let image = Self::new(
             device,
             &ImageDescription {
                 name,
                 format: Format::R32G32B32A32_UINT,
-                size: [width as u32, (texels.len() / width) as u32],
+                size: [width as u32, rows as u32],
                 layers: None,
                 mips: 1,
                 uses: &[Use::TransferWrite, Use::Texture],
             },
         )?;
-        image.upload(&[&texels], Use::Texture)?;
+        image.replace_texels(texels)?;
         Ok(image)
+    }
+
+    /// Other texels for those of [`Image::of_texels`], as many.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn replace_texels(&self, texels: &[[u32; 4]]) -> Result<()> {
+        let room = self.size.map(|side| side as usize).iter().product();
+        let mut padded = Vec::with_capacity(room);
+        padded.extend_from_slice(texels);
+        padded.resize(room, [0; 4]);
+        self.upload(&[&padded], Use::Texture)
     }
 
     /// Uploads all mip levels, each level's texels row by row, and leaves the image in use `after`.

@@ -14,21 +14,18 @@ const STRIDE: usize = 1 << MATERIAL_RECORD_LOG2;
 const _: () = assert!(HIT_MATERIAL_TEXELS + MATERIAL_TEXTURES <= 1 << MATERIAL_RECORD_LOG2);
 /// Texels across.
 pub(super) const WIDTH_LOG2: u32 = MATERIAL_RECORD_LOG2 + MATERIALS_PER_ROW_LOG2;
-const WIDTH: usize = 1 << WIDTH_LOG2;
 
 /// Parameters that a hit reads, by which textures count: not masks, which lie beside the tree.
 pub(super) const READ: usize = Parameter::Normal as usize + 1;
 
 pub(super) struct Materials {
-    /// Whole rows.
     pub(super) texels: Vec<Texel>,
     heap: Heap,
 }
 
 impl Materials {
     pub(super) fn new(scene: &Scene, heap: Heap) -> Self {
-        let count = (scene.materials.len() * STRIDE).next_multiple_of(WIDTH).max(WIDTH);
-        let mut materials = Self { texels: vec![[0; 4]; count], heap };
+        let mut materials = Self { texels: vec![[0; 4]; scene.materials.len() * STRIDE], heap };
         (0..scene.materials.len()).for_each(|index| materials.set(scene, index));
         materials
     }

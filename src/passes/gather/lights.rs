@@ -28,7 +28,7 @@ impl GatheredLights {
         });
         let bound = bound(spacing);
         Ok(Self {
-            image: Image::of_texels(device, "gathered lights", GATHERED_WIDTH_LOG2, texels)?,
+            image: Image::of_texels(device, "gathered lights", GATHERED_WIDTH_LOG2, &texels)?,
             constants: GatherConstants { points, emitters, virtuals, bound, ..GatherConstants::default() },
         })
     }
