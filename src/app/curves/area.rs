@@ -6,19 +6,17 @@ mod page;
 mod plot;
 mod tiers;
 
-use super::super::report::{self, Origin};
+use super::super::report::Origin;
 use super::plot as plots;
-use super::progress;
+use super::{progress, save_tables};
 use crate::error::Result;
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
-use crate::image::write_atomically;
 use crate::scene::Scene;
 use configurations::{BANDS, DISTRIBUTION, MODELS, SHAPES, configurations, material};
 use figures::{FLOOR, Point, complete};
 use indicatif::ProgressBar;
 use serde::Serialize;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tiers::{Bench, Family, Pipelines, TIERS};
@@ -121,7 +119,6 @@ fn times(bench: &Bench<'_>, repetitions: usize, bar: &ProgressBar) -> Result<Vec
 /// Writes [`FILES`], each to its path.
 fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
     let [csv, json, markdown, svg, png] = paths;
-    write_atomically(csv, |file| page::csv(file, &figures.points))?;
     let content = File {
         origin: Origin::of(device),
         quick: figures.quick,
@@ -130,9 +127,7 @@ fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result
         floor: FLOOR,
         points: &figures.points,
     };
-    report::save(json, &content)?;
-    write_atomically(markdown, |file| file.write_all(page::page(device, figures).as_bytes()))?;
-    let plot = plot::AreaPlot(&figures.points);
-    plots::svg(svg, &plot)?;
-    plots::png(png, &plot)
+    let rows = |file: &mut _| page::csv(file, &figures.points);
+    save_tables([csv, json, markdown], rows, &content, &page::page(device, figures))?;
+    plots::save([svg, png], &plot::AreaPlot(&figures.points))
 }

@@ -7,20 +7,18 @@ mod rows;
 use super::super::default_scene;
 use super::super::load::{Load, Since};
 use super::super::measure::Figure;
-use super::super::report::{self, Origin};
+use super::super::report::Origin;
 use super::super::statistics::Ratio;
-use super::progress;
+use super::{progress, save_tables};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
-use crate::image::write_atomically;
 use crate::passes::aov::Quantity;
 use crate::scene::{Scene, load_embedded};
 use indicatif::ProgressBar;
 use rows::{FEATURES, Feature, Variant};
 use serde::Serialize;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -168,7 +166,6 @@ fn point(device: &Arc<Device>, feature: &Feature, extent: Extent) -> Result<Poin
 /// Writes [`FILES`], each to its path.
 fn write(paths: &[PathBuf; 3], device: &DeviceInfo, figures: &Figures) -> Result<()> {
     let [csv, json, markdown] = paths;
-    write_atomically(csv, |file| page::csv(file, &figures.points))?;
     let content = File {
         origin: Origin::of(device),
         quick: figures.quick,
@@ -177,6 +174,6 @@ fn write(paths: &[PathBuf; 3], device: &DeviceInfo, figures: &Figures) -> Result
         load: figures.load,
         points: &figures.points,
     };
-    report::save(json, &content)?;
-    write_atomically(markdown, |file| file.write_all(page::page(device, figures).as_bytes()))
+    let rows = |file: &mut _| page::csv(file, &figures.points);
+    save_tables([csv, json, markdown], rows, &content, &page::page(device, figures))
 }

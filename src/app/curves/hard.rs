@@ -5,18 +5,16 @@ mod cases;
 mod formulas;
 mod page;
 
-use super::super::report::{self, Origin};
-use super::progress;
+use super::super::report::Origin;
+use super::{progress, save_tables};
 use crate::error::Result;
 use crate::gpu::{Device, DeviceInfo, Specialization, shaders};
-use crate::image::write_atomically;
 use crate::probe;
 use crate::reference::sampler::Random;
 use crate::shared::{HardProbeRow, SPEC_HARD_FORMULA};
 use formulas::{FORMULAS, Formula, Slots};
 use glam::{DVec4, Vec4};
 use serde::Serialize;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -137,9 +135,9 @@ impl Formula {
 /// Writes [`FILES`], each to its path.
 fn write(paths: &[PathBuf; 3], device: &DeviceInfo, points: &[Point], quick: bool) -> Result<()> {
     let [csv, json, markdown] = paths;
-    write_atomically(csv, |file| page::csv(file, points))?;
-    report::save(json, &File { origin: Origin::of(device), quick, floor: FLOOR, points })?;
-    write_atomically(markdown, |file| file.write_all(page::page(device, points, quick).as_bytes()))
+    let content = File { origin: Origin::of(device), quick, floor: FLOOR, points };
+    let rows = |file: &mut _| page::csv(file, points);
+    save_tables([csv, json, markdown], rows, &content, &page::page(device, points, quick))
 }
 
 #[cfg(test)]

@@ -9,18 +9,16 @@ mod plot;
 mod truth;
 
 use super::super::load::{Load, Since};
-use super::super::report::{self, Origin};
+use super::super::report::Origin;
 use super::plot as plots;
-use super::progress;
+use super::{progress, save_tables};
 use crate::error::Result;
 use crate::gpu::{Device, DeviceInfo};
-use crate::image::write_atomically;
 use crate::scene::load_embedded;
 use figures::{Point, points};
 use gathered::Gatherer;
 use plain::Plain;
 use serde::Serialize;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use truth::Truth;
@@ -140,7 +138,6 @@ fn measure(device: &Arc<Device>, extent: Extent, quick: bool) -> Result<Figures>
 /// Writes [`FILES`], each to its path.
 fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
     let [csv, json, markdown, svg, png] = paths;
-    write_atomically(csv, |file| page::csv(file, &figures.points))?;
     let content = File {
         origin: Origin::of(device),
         quick: figures.quick,
@@ -149,9 +146,7 @@ fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result
         load: figures.load,
         points: &figures.points,
     };
-    report::save(json, &content)?;
-    write_atomically(markdown, |file| file.write_all(page::page(device, figures).as_bytes()))?;
-    let plot = plot::IndirectPlot(&figures.points);
-    plots::svg(svg, &plot)?;
-    plots::png(png, &plot)
+    let rows = |file: &mut _| page::csv(file, &figures.points);
+    save_tables([csv, json, markdown], rows, &content, &page::page(device, figures))?;
+    plots::save([svg, png], &plot::IndirectPlot(&figures.points))
 }

@@ -7,19 +7,18 @@ mod sweeps;
 use super::super::measure::Figure;
 use super::super::report::{self, Origin};
 use super::plot as plots;
-use super::progress;
+use super::{progress, save_tables};
 use crate::compare::{self, Options};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
-use crate::image::{HdrImage, write_atomically};
+use crate::image::HdrImage;
 use crate::light_tree::LightTree;
 use crate::scene::Scene;
 use cpu_time::ProcessTime;
 use indicatif::ProgressBar;
 use serde::Serialize;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use sweeps::{GROWTH, SWEEPS, Setting, Sweep};
@@ -218,16 +217,13 @@ fn point(sweep: &Sweep, subject: &Subject) -> Result<Point> {
 /// Writes [`FILES`], each to its path.
 fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
     let [csv, json, markdown, svg, png] = paths;
-    write_atomically(csv, |file| page::csv(file, &figures.points))?;
     let content = File {
         origin: Origin::of(device),
         quick: figures.quick,
         extent: &figures.extent,
         points: &figures.points,
     };
-    report::save(json, &content)?;
-    write_atomically(markdown, |file| file.write_all(page::page(device, figures).as_bytes()))?;
-    let plot = plot::LightsPlot(&figures.points);
-    plots::svg(svg, &plot)?;
-    plots::png(png, &plot)
+    let rows = |file: &mut _| page::csv(file, &figures.points);
+    save_tables([csv, json, markdown], rows, &content, &page::page(device, figures))?;
+    plots::save([svg, png], &plot::LightsPlot(&figures.points))
 }

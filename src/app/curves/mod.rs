@@ -10,12 +10,16 @@ mod plot;
 
 use super::args::{Chapter, ReportOptions};
 use super::outputs::check_folder;
+use super::report;
 use super::terminal::print;
 use crate::error::Result;
 use crate::gpu::{Device, Options};
+use crate::image::write_atomically;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::IsTerminal;
-use std::path::Path;
+use serde::Serialize;
+use std::fs::File;
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A chapter: the files that it writes, and what measures and writes it and says what is printed.
@@ -44,6 +48,18 @@ pub(super) fn run(options: &ReportOptions) -> Result<()> {
         print((row.run)(&device, options.quick, &options.out)?)?;
     }
     Ok(())
+}
+
+/// Writes a chapter's tables, CSV, JSON and Markdown, each to its path.
+fn save_tables(
+    [csv, json, markdown]: [&PathBuf; 3],
+    rows: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    content: &impl Serialize,
+    page: &str,
+) -> Result<()> {
+    write_atomically(csv, rows)?;
+    report::save(json, content)?;
+    write_atomically(markdown, |file| file.write_all(page.as_bytes()))
 }
 
 fn progress(work: usize) -> ProgressBar {

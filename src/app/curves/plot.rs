@@ -6,7 +6,7 @@ use crate::image::{save_png8, write_atomically};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A font that vector pictures leave to the viewer, and bitmaps replace by their own.
 pub(super) const FONT: (&str, i32) = ("monospace", 13);
@@ -22,7 +22,13 @@ pub(super) trait Plot {
     fn draw<B: DrawingBackend>(&self, root: &DrawingArea<B, Shift>) -> Drawn<B>;
 }
 
-pub(super) fn svg<P: Plot>(path: &Path, plot: &P) -> Result<()> {
+/// Draws it as SVG and as PNG, each to its path.
+pub(super) fn save<P: Plot>([to_svg, to_png]: [&PathBuf; 2], plot: &P) -> Result<()> {
+    svg(to_svg, plot)?;
+    png(to_png, plot)
+}
+
+fn svg<P: Plot>(path: &Path, plot: &P) -> Result<()> {
     let mut text = String::new();
     let root = SVGBackend::with_string(&mut text, P::SIZE).into_drawing_area();
     plot.draw(&root).map_err(|error| failed(path, error))?;
@@ -30,7 +36,7 @@ pub(super) fn svg<P: Plot>(path: &Path, plot: &P) -> Result<()> {
     write_atomically(path, |file| file.write_all(text.as_bytes()))
 }
 
-pub(super) fn png<P: Plot>(path: &Path, plot: &P) -> Result<()> {
+fn png<P: Plot>(path: &Path, plot: &P) -> Result<()> {
     let mut bytes = vec![0; 3 * (P::SIZE.0 * P::SIZE.1) as usize];
     let root = Lettered(BitMapBackend::with_buffer(&mut bytes, P::SIZE)).into_drawing_area();
     plot.draw(&root).map_err(|error| failed(path, error))?;
