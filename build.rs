@@ -13,6 +13,9 @@ mod shared;
 #[path = "src/gpu/compile.rs"]
 mod compile;
 
+/// What shaders that ask about rays include.
+const RAYS: &str = "bind/bvh.glsl";
+
 fn main() {
     if let Err(message) = compile_all() {
         // Cargo shows a build script's stderr only on failure; the message already names file and line.
@@ -55,16 +58,25 @@ fn compile_all() -> Result<(), String> {
     let compiler = shaderc::Compiler::new().map_err(|error| format!("shaderc: {error}"))?;
     let mut table = String::new();
     for name in &names {
-        let words = compile::compile(&compiler, root, name, shared::GLSL)?;
         let constant = constant_name(name);
-        let spirv = out.join(format!("{constant}.spv"));
-        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_ne_bytes()).collect();
-        fs::write(&spirv, bytes).map_err(|error| format!("{}: {error}", spirv.display()))?;
+        let spirv = |queries| -> Result<PathBuf, String> {
+            let words = compile::compile(&compiler, (root, name), shared::GLSL, queries)?;
+            let file = out.join(format!("{constant}{}.spv", if queries { "_RAY_QUERIES" } else { "" }));
+            let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_ne_bytes()).collect();
+            fs::write(&file, bytes).map_err(|error| format!("{}: {error}", file.display()))?;
+            Ok(file)
+        };
+        let walks = spirv(false)?;
+        let queries = if compile::parts(root, name).contains(RAYS) {
+            format!("Some(Words(include_bytes!({:?})))", spirv(true)?)
+        } else {
+            "None".into()
+        };
         let stage = stage(name).unwrap_or_default();
         writeln!(
             table,
             "/// `glsl/{name}`.\npub const {constant}: Shader = Shader {{ name: {name:?}, stage: Stage::{stage}, \
-             spirv: Words(include_bytes!({spirv:?})) }};"
+             spirv: Words(include_bytes!({walks:?})), ray_queries: {queries} }};"
         )
         .map_err(|error| error.to_string())?;
     }

@@ -426,6 +426,8 @@ shared! {
             /// A [`HitMaterial`](super::HitMaterial) and up to `MATERIAL_TEXTURES` [`HitTexture`](super::HitTexture)s every
             /// `1 << MATERIAL_RECORD_LOG2` texels.
             SCENE_HIT_MATERIALS = 6: Sampled in Compute;
+            /// The triangles of `SCENE_BVH` in their order, for ray queries.
+            SCENE_RAY_TREE = 7: RayTree;
         }
         /// A material: its textures and constants.
         material = 2 {

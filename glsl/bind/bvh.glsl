@@ -66,7 +66,37 @@ const uint BVH_UNROLLED = 4u;
 // either side, but for what its mask cuts, or a luminaire that is seen. An origin on a surface has to be moved off it,
 // see offset_origin(). `t_max` should end before the light by 1e-5 of its distance where the light itself is an occluder
 // or lies on one.
-//
+#ifdef RAY_QUERIES
+
+layout(set = SET_scene, binding = SCENE_RAY_TREE) uniform accelerationStructureEXT ray_tree;
+
+// Vulkan leaves it open what other rays than these do.
+bool ray_allowed(vec3 origin, vec3 direction, float t_min, float t_max) {
+    bvec3 infinite = equal(floatBitsToUint(origin) & 0x7f800000u, uvec3(0x7f800000u));
+    bvec3 nowhere = equal(floatBitsToUint(direction) & 0x7f800000u, uvec3(0x7f800000u));
+    return !any(infinite) && !any(nowhere) && dot(direction, direction) > 0.5 && t_min >= 0.0 && t_max > t_min;
+}
+
+// The driver's tree says which triangles a ray may meet; of these, what meets it is decided as in the walk.
+bool occluded(vec3 origin, vec3 direction, float t_min, float t_max) {
+    BvhHeader header = bvh_header();
+    BvhRay ray = bvh_ray(header, origin, direction, t_min, t_max);
+    uint triangles = BVH_HEADER_TEXELS + header.nodes;
+    if (!ray_allowed(origin, direction, t_min, t_max)) return false;
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, ray_tree, gl_RayFlagsNoOpaqueEXT, 0xffu, origin, t_min, direction, t_max);
+    bool hidden = false;
+    while (!hidden && rayQueryProceedEXT(query)) {
+        uint triangle = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+        vec3 weights;
+        float t;
+        hidden = triangle_hides(ray, triangles + triangle * BVH_TRIANGLE_TEXELS, weights, t);
+    }
+    return hidden;
+}
+
+#else
+
 // A walk over the tree without a stack. Four children a node with a stack took as long, on lavapipe. The leaf's
 // triangles wait until every lane of a group has a leaf or is done: lavapipe executes what it masks.
 bool occluded(vec3 origin, vec3 direction, float t_min, float t_max) {
@@ -97,5 +127,7 @@ bool occluded(vec3 origin, vec3 direction, float t_min, float t_max) {
     }
     return hidden;
 }
+
+#endif
 
 #endif

@@ -17,12 +17,6 @@ struct Hit {
     bool front;  // the ray comes from the side from which the triangle winds counter-clockwise
 };
 
-// The first node of a direction's order: near children come first, so that what is found early cuts off the rest.
-uint hit_order(BvhHeader header, vec3 direction) {
-    uvec3 negative = uvec3(lessThan(direction, vec3(0.0)));
-    return (negative.x | negative.y << 1 | negative.z << 2) * header.nodes;
-}
-
 // Takes a triangle that is nearer, and of two as near the one that comes first in the tree: the same hit in any order.
 void nearer(BvhRay ray, uint texel, inout Hit hit) {
     vec3 weights;
@@ -36,9 +30,44 @@ void nearer(BvhRay ray, uint texel, inout Hit hit) {
     }
 }
 
+// A hit of a texel as one of a triangle.
+Hit numbered(Hit hit, BvhHeader header) {
+    if (hit.triangle != NO_HIT) {
+        hit.triangle = (hit.triangle - BVH_HEADER_TEXELS - header.nodes) / BVH_TRIANGLE_TEXELS;
+    }
+    return hit;
+}
+
 // The nearest triangle from `origin` along `direction`, from either side, but for what its mask cuts; luminaires that are
 // seen are among them. An origin on a surface has to be moved off it, see offset_origin().
-//
+#ifdef RAY_QUERIES
+
+// As occluded(); what is found ends the query's ray, too.
+Hit nearest_hit(vec3 origin, vec3 direction, float t_max) {
+    BvhHeader header = bvh_header();
+    BvhRay ray = bvh_ray(header, origin, direction, 0.0, t_max);
+    uint triangles = BVH_HEADER_TEXELS + header.nodes;
+    Hit hit = Hit(t_max, NO_HIT, vec2(0.0), false);
+    if (!ray_allowed(origin, direction, 0.0, t_max)) return hit;
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, ray_tree, gl_RayFlagsNoOpaqueEXT, 0xffu, origin, 0.0, direction, t_max);
+    while (rayQueryProceedEXT(query)) {
+        uint triangle = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+        uint texel = triangles + triangle * BVH_TRIANGLE_TEXELS;
+        nearer(ray, texel, hit);
+        if (hit.triangle == texel) rayQueryConfirmIntersectionEXT(query);
+    }
+    return numbered(hit, header);
+}
+
+#else
+
+// The first node of a direction's order: near children come first, so that what is found early cuts off the rest.
+uint hit_order(BvhHeader header, vec3 direction) {
+    uvec3 negative = uvec3(lessThan(direction, vec3(0.0)));
+    return (negative.x | negative.y << 1 | negative.z << 2) * header.nodes;
+}
+
 // A walk as `occluded`, over nodes in the order of the direction's octant, whose ray ends at what is found.
 Hit nearest_hit(vec3 origin, vec3 direction, float t_max) {
     BvhHeader header = bvh_header();
@@ -63,10 +92,9 @@ Hit nearest_hit(vec3 origin, vec3 direction, float t_max) {
         for (uint i = 0u; i < count; ++i) nearer(ray, first + i * BVH_TRIANGLE_TEXELS, hit);
         ray.t_max = hit.t;
     }
-    if (hit.triangle != NO_HIT) {
-        hit.triangle = (hit.triangle - BVH_HEADER_TEXELS - header.nodes) / BVH_TRIANGLE_TEXELS;
-    }
-    return hit;
+    return numbered(hit, header);
 }
+
+#endif
 
 #endif

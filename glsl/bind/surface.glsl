@@ -60,7 +60,7 @@ vec2 alphas(float alpha) {
     float aspect = 1.0;
     if (ANISOTROPIC) {
         aspect = parameter(3u, SLOT_ASPECT).x;
-        if (SLOT_ASPECT != NO_TEXTURE) aspect = sqrt(1.0 - 0.9 * aspect);
+        if (SLOT_ASPECT != NO_TEXTURE) aspect = sqrt(max(1.0 - 0.9 * aspect, 1e-4));
         // A tangent of length 0 has no direction to stretch along.
         if (dot(in_tangent.xyz, in_tangent.xyz) == 0.0) aspect = 1.0;
     }

@@ -4,9 +4,12 @@ layout(set = SET_scene, binding = SCENE_LIGHT_NODES) uniform utexture2D light_no
 // Keeps a light whose window is 0 to the last bit rather than lose one to rounding.
 const float REACH = 1.00001;
 
+// `precise`: the steps that count and that write ask from modules of their own, and must hear the same.
 bool reaches(vec4 place, vec3 lower, vec3 upper) {
     vec3 to_box = max(max(lower - place.xyz, place.xyz - upper), vec3(0.0));
-    return dot(to_box, to_box) * place.w <= REACH;
+    precise float d2 = to_box.x * to_box.x + to_box.y * to_box.y + to_box.z * to_box.z;
+    precise float share = d2 * place.w;
+    return share <= REACH;
 }
 
 // The first `count` bits.

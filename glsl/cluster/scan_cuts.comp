@@ -35,7 +35,9 @@ void main() {
         clusters[id].cut = texel;
         texel += texels_of(id);
     }
-    // Past the barriers of the sum, so every invocation has read what lane 0 overwrites.
+    // Every invocation has read what lane 0 overwrites.
+    memoryBarrierBuffer();
+    barrier();
     if (lane == 0u) {
         counters.list_texels = before + total;
         for (uint i = 0u; i < SCAN_GROUP; ++i) counters.cut_longest = max(counters.cut_longest, longest[i]);

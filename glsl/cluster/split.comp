@@ -43,7 +43,9 @@ void main() {
             write_part(next++, first + child, min(children - child, SIBLINGS));
         }
     }
-    // Past the barriers of the sum, so every invocation has read what lane 0 overwrites.
+    // Every invocation has read what lane 0 overwrites.
+    memoryBarrierBuffer();
+    barrier();
     if (gl_LocalInvocationIndex != 0u) return;
     uint room = frame.parent_capacity - min(all, frame.parent_capacity);
     uint parents = min(total, room);

@@ -52,7 +52,9 @@ void write_masked(uint texel, uint texels) {
 // Crowded parents have no masks: their lights are tested again, for all their clusters in step. That is cheaper than masks
 // would be large. (light_grid with 65,536 lights, 31 such parents of 464: cluster 374 CPU ms
 // when the fold step wrote these lists, 144 so, lists read as images included.)
-void write_tested(uint texel, vec3 lower, vec3 upper) {
+void write_tested(uint texel, uint texels, vec3 lower, vec3 upper) {
+    // Whatever the tests say: not into the next list.
+    uint end = texel + texels;
     uint all = parent_groups(parent);
     uvec4 four = uvec4(frame.light_count);
     uint count = 0u;
@@ -66,13 +68,14 @@ void write_tested(uint texel, vec3 lower, vec3 upper) {
             right = left != 0u ? right : right & (right - 1u);
             left &= left - 1u;
             four = uvec4(four.yzw, light);
-            if ((++count & 3u) == 0u) imageStore(light_lists, list_texel(texel++), four);
+            if ((++count & 3u) == 0u && texel < end) imageStore(light_lists, list_texel(texel++), four);
         }
     }
     uint none = frame.light_count;
     four = (count & 3u) == 1u ? uvec4(four.w, none, none, none)
                               : (count & 3u) == 2u ? uvec4(four.zw, none, none) : uvec4(four.yzw, none);
-    if ((count & 3u) != 0u) imageStore(light_lists, list_texel(texel), four);
+    if ((count & 3u) != 0u && texel < end) imageStore(light_lists, list_texel(texel++), four);
+    for (; texel < end; ++texel) imageStore(light_lists, list_texel(texel), uvec4(none));
 }
 
 void main() {
@@ -91,6 +94,6 @@ void main() {
     if (parent_kind(parent) == OF_LIGHTS) {
         write_masked(here.list, texels);
     } else {
-        write_tested(here.list, here.lower, here.upper);
+        write_tested(here.list, texels, here.lower, here.upper);
     }
 }

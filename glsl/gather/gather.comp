@@ -31,7 +31,7 @@ const float PATH_TILES = 4.0;
 void add(ivec2 pixel, uint first_layer, vec3 radiance) {
     ivec3 texel = ivec3(pixel, first_layer + gather.index / GATHER_FRAMES % GATHER_SUBSETS);
     // Paths with next to no probability, whose products overflow.
-    radiance = mix(clamp(radiance, -MAX_RADIANCE, MAX_RADIANCE), vec3(0.0), isnan(radiance));
+    radiance = clamp(mix(radiance, vec3(0.0), no_number(radiance)), -MAX_RADIANCE, MAX_RADIANCE);
     imageStore(sums, texel, imageLoad(sums, texel) + vec4(radiance, 0.0));
 }
 

@@ -45,7 +45,7 @@ Step step_from(Vertex v, vec3 throughput, inout vec3 radiance) {
     vec3 reflected = leaves ? response(v, wi) : vec3(0.0);
     throughput *= reflected / max(pdf, TINY);
     Step next = Step(v, throughput, false);
-    if (throughput == vec3(0.0)) return next;
+    if (!leaves || throughput == vec3(0.0)) return next;
     // Gathering takes over whatever is farther.
     float reach = GATHER_LAMBERT ? inversesqrt(v.bound) : 1e30;
     Hit hit = nearest_hit(v.origin, direction, reach);

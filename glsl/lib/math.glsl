@@ -31,4 +31,9 @@ float luminance(vec3 color) { return dot(color, vec3(0.212671, 0.715160, 0.07216
 float lerp(float a, float b, float t) { return a * (1.0 - t) + b * t; }
 vec3 lerp(vec3 a, vec3 b, float t) { return a * (1.0 - t) + b * t; }
 
+// isnan() by bits: a compiler may take for granted that there are no such numbers, and answer no.
+bvec3 no_number(vec3 v) {
+    return greaterThan(floatBitsToUint(v) & 0x7fffffffu, uvec3(0x7f800000u));
+}
+
 #endif

@@ -1,5 +1,6 @@
 //! The command line.
 
+use crate::gpu::Options;
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -99,7 +100,11 @@ impl Default for Command {
     fn default() -> Self {
         Self::Render(RenderOptions {
             scene: SceneOptions { scene: None, size: None, set: Vec::new() },
-            device: DeviceOptions { device: std::env::var("AMAS_DEVICE").ok(), validate: false },
+            device: DeviceOptions {
+                device: std::env::var("AMAS_DEVICE").ok(),
+                validate: false,
+                ray_queries: None,
+            },
             output: Vec::new(),
             camera: None,
             frames: None,
@@ -118,6 +123,17 @@ pub(super) struct DeviceOptions {
     /// Turn on the validation layers with synchronisation checks, and fail on a message
     #[arg(long)]
     pub(super) validate: bool,
+    /// Whether rays are traced by ray queries where the device has them: true or false [default: true unless it is a CPU]
+    #[arg(long, value_name = "BOOL", env = "AMAS_RAY_QUERIES", hide_env = true)]
+    pub(super) ray_queries: Option<bool>,
+}
+
+impl DeviceOptions {
+    /// As the device's opening takes them.
+    pub(super) fn asked(&self) -> Options {
+        let Self { device, validate, ray_queries } = self.clone();
+        Options { device, validate, ray_queries }
+    }
 }
 
 #[derive(Clone, Debug, ClapArgs)]

@@ -42,6 +42,9 @@ impl std::fmt::Display for Listed<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self(index, info) = self;
         write!(f, "{index}: {} ({}), {}, Vulkan {}", info.name, info.kind, info.driver, info.api)?;
+        if info.ray_queries {
+            write!(f, ", ray queries")?;
+        }
         for check in &info.report.0 {
             let mark = if check.ok { "yes" } else { "NO " };
             write!(f, "\n   {mark}  {:<44} has {:<12} for {}", check.name, check.found, check.why)?;

@@ -10,7 +10,7 @@ use super::report::{self, Report};
 use super::{FRAME_RATE, camera, in_scene, load_scene};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings};
-use crate::gpu::{Device, Options};
+use crate::gpu::Device;
 use crate::gpu_scene::GpuScene;
 use crate::image::save_png8;
 use crate::refine::Rounds;
@@ -28,8 +28,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     check_outputs(options, &outputs, &aovs)?;
     let scene = load_scene(&options.scene)?;
     let camera = in_scene(&options.scene, camera(&scene, options.camera.as_deref()))?;
-    let device =
-        Device::open(&Options { device: options.device.device.clone(), validate: options.device.validate })?;
+    let device = Device::open(&options.device.asked())?;
     let gpu_scene = Arc::new(in_scene(&options.scene, GpuScene::new(&device, &scene))?);
     let settings = FrameSettings::new(&scene.render, camera);
     let mut frame = Frame::new(&device, &gpu_scene, settings)?;

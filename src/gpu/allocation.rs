@@ -24,13 +24,14 @@ impl Memory {
         instance: &ash::Instance,
         device: &ash::Device,
         physical: vk::PhysicalDevice,
+        addresses: bool,
     ) -> Result<Self> {
         let allocator = Allocator::new(&AllocatorCreateDesc {
             instance: instance.clone(),
             device: device.clone(),
             physical_device: physical,
             debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
-            buffer_device_address: false,
+            buffer_device_address: addresses,
             allocation_sizes: gpu_allocator::AllocationSizes::default(),
         })
         .map_err(|error| out_of_memory("the memory allocator", &error))?;

@@ -35,6 +35,8 @@ pub enum Use {
     ColorWrite,
     /// Colour attachment that a fragment shader reads as its input.
     InputRead,
+    /// A ray tree, built, then asked.
+    RayTree,
     /// Image of a window, free to be copied to.
     Acquired,
     /// Shown in a window.
@@ -93,6 +95,14 @@ impl Use {
                 S::from_raw(S::FRAGMENT_SHADER.as_raw() | S::COLOR_ATTACHMENT_OUTPUT.as_raw()),
                 A::from_raw(A::INPUT_ATTACHMENT_READ.as_raw() | A::COLOR_ATTACHMENT_WRITE.as_raw()),
                 L::SHADER_READ_ONLY_OPTIMAL,
+            ),
+            Self::RayTree => (
+                S::from_raw(S::ACCELERATION_STRUCTURE_BUILD_KHR.as_raw() | SHADING.as_raw()),
+                A::from_raw(
+                    A::ACCELERATION_STRUCTURE_READ_KHR.as_raw()
+                        | A::ACCELERATION_STRUCTURE_WRITE_KHR.as_raw(),
+                ),
+                L::UNDEFINED,
             ),
             // The stage at which the copy waits for the window.
             Self::Acquired => (S::TRANSFER, A::empty(), L::UNDEFINED),

@@ -23,6 +23,12 @@ pub enum BufferUse {
     Index,
     /// Vertices or indices that the host writes for every picture.
     Stream,
+    /// What a [`RayTree`](super::RayTree) is built from.
+    RayTreeInput,
+    /// A [`RayTree`](super::RayTree).
+    RayTree,
+    /// What building one needs meanwhile.
+    RayTreeScratch,
     /// Staging towards the device.
     Upload,
     /// Staging towards the host.
@@ -38,6 +44,17 @@ impl BufferUse {
             Self::Vertex => vk::BufferUsageFlags::VERTEX_BUFFER,
             Self::Index => vk::BufferUsageFlags::INDEX_BUFFER,
             Self::Stream => vk::BufferUsageFlags::VERTEX_BUFFER | vk::BufferUsageFlags::INDEX_BUFFER,
+            Self::RayTreeInput => {
+                vk::BufferUsageFlags::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR
+                    | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
+            }
+            Self::RayTree => {
+                vk::BufferUsageFlags::ACCELERATION_STRUCTURE_STORAGE_KHR
+                    | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
+            }
+            Self::RayTreeScratch => {
+                vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS
+            }
             Self::Upload | Self::Readback => vk::BufferUsageFlags::empty(),
         }
     }
@@ -46,7 +63,12 @@ impl BufferUse {
         match self {
             Self::Uniform | Self::Stream | Self::Upload => MemoryLocation::CpuToGpu,
             Self::Readback => MemoryLocation::GpuToCpu,
-            Self::Storage | Self::Vertex | Self::Index => MemoryLocation::GpuOnly,
+            Self::Storage
+            | Self::Vertex
+            | Self::Index
+            | Self::RayTreeInput
+            | Self::RayTree
+            | Self::RayTreeScratch => MemoryLocation::GpuOnly,
         }
     }
 }
@@ -156,8 +178,11 @@ impl<T: Pod> Buffer<T> {
         if self.allocation.as_ref().and_then(Allocation::mapped_slice).is_none() {
             return Err(self.not_mapped());
         }
+        let error = self.not_mapped();
         let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
-        Ok(mapped.map_or(&mut [], |mapped| bytemuck::cast_slice_mut(&mut mapped[..bytes])))
+        let mapped = mapped.and_then(|mapped| mapped.get_mut(..bytes));
+        // Vulkan promises no alignment of staging memory for every type.
+        mapped.and_then(|mapped| bytemuck::try_cast_slice_mut(mapped).ok()).ok_or(error)
     }
 
     /// Copies a host-visible buffer's contents out; the device must have finished writing.
@@ -187,10 +212,17 @@ impl<T: Pod> Buffer<T> {
         staging.read()
     }
 
+    /// Where it lies, as shaders and drivers count; the device has ray queries.
+    pub(super) fn address(&self) -> vk::DeviceAddress {
+        let info = vk::BufferDeviceAddressInfo::default().buffer(self.raw);
+        // SAFETY: the buffer was made to have an address, and the feature is on where ray trees are made.
+        unsafe { self.device.raw.get_buffer_device_address(&info) }
+    }
+
     fn not_mapped(&self) -> Error {
         Error::Vulkan {
             call: format!("access to buffer {}", self.name),
-            result: "not mapped, or too short".into(),
+            result: "not mapped, too short, or not aligned".into(),
             remedy: "report this".into(),
         }
     }

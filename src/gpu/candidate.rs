@@ -3,6 +3,7 @@
 use super::Called;
 use super::device::DeviceInfo;
 use super::instance::Instance;
+use super::ray_tree;
 use super::requirements::{self, Check, Facts};
 use crate::error::{Error, Result};
 use ash::vk;
@@ -72,6 +73,7 @@ fn describe(
         driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str())),
         api: requirements::version_text(properties.api_version),
         kind,
+        ray_queries: properties.api_version >= vk::API_VERSION_1_2 && ray_tree::there(instance, physical),
         report,
     };
     Candidate {

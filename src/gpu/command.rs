@@ -73,6 +73,17 @@ impl Commands {
         };
     }
 
+    /// Makes all that was written visible to whatever is submitted later: having waited for it does not.
+    pub(super) fn visible_to_all(&mut self) {
+        let all = vk::PipelineStageFlags::ALL_COMMANDS;
+        let barrier = vk::MemoryBarrier::default()
+            .src_access_mask(vk::AccessFlags::MEMORY_WRITE)
+            .dst_access_mask(vk::AccessFlags::MEMORY_READ | vk::AccessFlags::MEMORY_WRITE);
+        let (raw, none) = (self.raw, vk::DependencyFlags::empty());
+        // SAFETY: outside of a render pass, as recording ends there.
+        unsafe { self.device.raw.cmd_pipeline_barrier(raw, all, all, none, &[barrier], &[], &[]) };
+    }
+
     /// Binds a compute pipeline and its sets, from set 0.
     pub fn bind_compute(&mut self, pipeline: &ComputePipeline, sets: &[DescriptorSet<'_>]) {
         self.point = vk::PipelineBindPoint::COMPUTE;

@@ -1,5 +1,6 @@
 //! GLSL to SPIR-V: what `build.rs` does to every shader, and the window to those that change while it runs.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -10,12 +11,13 @@ pub(crate) const STAGES: [(&str, shaderc::ShaderKind); 3] = [
     ("comp", shaderc::ShaderKind::Compute),
 ];
 
-/// Compiles the shader `name`, a path below the folder `root`, with the declarations that Rust shares with it.
+/// Compiles the shader `name`, a path below the folder `root`, with the declarations that Rust shares with it, and with ray
+/// queries where they are wanted.
 pub(crate) fn compile(
     compiler: &shaderc::Compiler,
-    root: &Path,
-    name: &str,
+    (root, name): (&Path, &str),
     shared: &str,
+    ray_queries: bool,
 ) -> Result<Vec<u32>, String> {
     let is = |extension: &str| Path::new(name).extension().is_some_and(|found| found == extension);
     let stage = STAGES.into_iter().find(|(extension, _)| is(extension));
@@ -33,15 +35,40 @@ pub(crate) fn compile(
         }
         Ok(shaderc::ResolvedInclude { resolved_name: format!("glsl/{name}"), content: text(root, name)? })
     });
+    let source = text(root, name)?;
+    let source = if ray_queries { with_ray_queries(&source) } else { source };
     let artifact = compiler
-        .compile_into_spirv(&text(root, name)?, kind, &format!("glsl/{name}"), "main", Some(&options))
+        .compile_into_spirv(&source, kind, &format!("glsl/{name}"), "main", Some(&options))
         .map_err(|error| error.to_string())?;
     Ok(artifact.as_binary().to_vec())
+}
+
+/// Text of a shader that has its rays traced by the device; lines keep their numbers.
+fn with_ray_queries(text: &str) -> String {
+    const VERSION: &str = "#version 450\n";
+    let before = text.split(VERSION).next().unwrap_or_default().lines().count();
+    let asked = "#version 460\n#extension GL_EXT_ray_query : require\n#define RAY_QUERIES";
+    let asked = format!("{asked}\n#line {}\n", before + 2);
+    text.replacen(VERSION, &asked, 1)
 }
 
 /// The text of a file below `root`.
 pub(crate) fn text(root: &Path, name: &str) -> Result<String, String> {
     fs::read_to_string(root.join(name)).map_err(|error| format!("glsl/{name}: {error}"))
+}
+
+/// A shader's file and all that it includes.
+pub(crate) fn parts(root: &Path, name: &str) -> BTreeSet<String> {
+    let mut parts = BTreeSet::new();
+    let mut left = vec![name.to_owned()];
+    while let Some(name) = left.pop() {
+        let text = text(root, &name).unwrap_or_default();
+        let included =
+            text.lines().filter_map(|line| line.trim().strip_prefix("#include \"")?.split('"').next());
+        left.extend(included.filter(|name| !parts.contains(*name)).map(str::to_owned));
+        parts.insert(name);
+    }
+    parts
 }
 
 /// Every file below `root`, sorted, by its name there.

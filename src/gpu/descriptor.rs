@@ -1,7 +1,7 @@
 //! Descriptor sets, laid out by the binding tables of [`crate::shared`].
 
 use super::device::Device;
-use super::{Buffer, Called, Image, Sampler, Use};
+use super::{Buffer, Called, Image, RayTree, Sampler, Use};
 use crate::error::Result;
 use crate::shared::{Binding, BindingKind, Stages};
 use ash::vk;
@@ -33,7 +33,14 @@ fn kind(kind: BindingKind) -> vk::DescriptorType {
         BindingKind::Combined => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
         BindingKind::StorageImage => vk::DescriptorType::STORAGE_IMAGE,
         BindingKind::Input => vk::DescriptorType::INPUT_ATTACHMENT,
+        BindingKind::RayTree => vk::DescriptorType::ACCELERATION_STRUCTURE_KHR,
     }
+}
+
+/// Rows of a table that a device knows.
+fn known(device: &Device, bindings: &'static [Binding]) -> impl Iterator<Item = &'static Binding> {
+    let queries = device.has_ray_queries();
+    bindings.iter().filter(move |row| queries || row.kind != BindingKind::RayTree)
 }
 
 /// Layout of one set.
@@ -49,8 +56,7 @@ impl SetLayout {
     /// # Errors
     /// [`crate::Error::Vulkan`] from the driver.
     pub fn new(device: &Arc<Device>, bindings: &'static [Binding]) -> Result<Self> {
-        let rows: Vec<_> = bindings
-            .iter()
+        let rows: Vec<_> = known(device, bindings)
             .map(|row| {
                 vk::DescriptorSetLayoutBinding::default()
                     .binding(row.binding)
@@ -136,9 +142,7 @@ pub struct DescriptorSet<'a> {
 
 impl DescriptorSets {
     fn new(device: &Arc<Device>, layout: &SetLayout, count: u32) -> Result<Self> {
-        let sizes: Vec<_> = layout
-            .bindings
-            .iter()
+        let sizes: Vec<_> = known(device, layout.bindings)
             .map(|row| vk::DescriptorPoolSize {
                 ty: kind(row.kind),
                 descriptor_count: row.count * count.max(1),
@@ -207,6 +211,14 @@ impl DescriptorSet<'_> {
             image_layout: used.layout(),
         }];
         self.write(vk::WriteDescriptorSet::default().image_info(&info), binding);
+    }
+
+    /// A tree for ray queries.
+    pub fn ray_tree(&self, binding: u32, tree: &RayTree) {
+        let trees = [tree.top.raw];
+        let mut info =
+            vk::WriteDescriptorSetAccelerationStructureKHR::default().acceleration_structures(&trees);
+        self.write(vk::WriteDescriptorSet::default().descriptor_count(1).push_next(&mut info), binding);
     }
 
     /// An array of textures under one sampler.

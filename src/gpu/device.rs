@@ -5,17 +5,19 @@ use super::cache::Cache;
 use super::candidate::{Candidate, Presentation, candidates, choose};
 use super::instance::Instance;
 use super::pipeline::Compiled;
+use super::ray_tree;
 use super::requirements::Report;
 use super::{Called, Commands, Shader};
 use crate::error::{Error, Result};
-use ash::vk;
+use ash::{khr, vk};
 use std::collections::HashMap;
 use std::ffi::CStr;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 
-/// SPIR-V in the place of what the program was built with, by the names of the shaders.
-pub type Replaced = HashMap<&'static str, Vec<u32>>;
+/// SPIR-V in the place of what the program was built with, by the names of the shaders and whether with ray
+/// queries.
+pub type Replaced = HashMap<(&'static str, bool), Vec<u32>>;
 
 /// How to open a device.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +26,8 @@ pub struct Options {
     pub device: Option<String>,
     /// Turn on the validation layers with synchronisation checks.
     pub validate: bool,
+    /// Whether rays are traced by ray queries where the device has them; by default, where it is no CPU.
+    pub ray_queries: Option<bool>,
 }
 
 /// What a device is, and what it lacks.
@@ -38,6 +42,8 @@ pub struct DeviceInfo {
     /// discrete, integrated, virtual, cpu or other.
     #[serde(rename = "type")]
     pub kind: &'static str,
+    /// Whether rays are traced by ray queries.
+    pub ray_queries: bool,
     /// What amas needs, row by row.
     #[serde(skip)]
     pub report: Report,
@@ -52,6 +58,8 @@ pub struct Device {
     pub(super) timestamp_bits: u32,
     pub(super) max_anisotropy: Option<f32>,
     pub(super) physical: vk::PhysicalDevice,
+    rays: Option<khr::acceleration_structure::Device>,
+    scratch_alignment: u64,
     info: DeviceInfo,
     queue: vk::Queue,
     #[cfg(feature = "viewer")]
@@ -84,9 +92,13 @@ impl Device {
         cache: Option<&Path>,
     ) -> Result<Arc<Self>> {
         let candidates = candidates(&instance, presentation)?;
-        let chosen = choose(candidates, options.device.as_deref())?;
-        let extensions = presentation.map_or(&[][..], |_| &[ash::khr::swapchain::NAME]);
-        Self::create(instance, chosen, extensions, cache).map(Arc::new)
+        let mut chosen = choose(candidates, options.device.as_deref())?;
+        chosen.info.ray_queries &= options.ray_queries.unwrap_or(chosen.info.kind != "cpu");
+        let mut extensions: Vec<_> = presentation.iter().map(|_| khr::swapchain::NAME).collect();
+        if chosen.info.ray_queries {
+            extensions.extend(ray_tree::EXTENSIONS);
+        }
+        Self::create(instance, chosen, &extensions, cache).map(Arc::new)
     }
 
     /// Every device of the machine, with what it lacks.
@@ -117,10 +129,19 @@ impl Device {
             full_draw_index_uint32: supported.full_draw_index_uint32,
             ..vk::PhysicalDeviceFeatures::default()
         };
-        let info = vk::DeviceCreateInfo::default()
+        let queries = chosen.info.ray_queries;
+        let mut addresses =
+            vk::PhysicalDeviceBufferDeviceAddressFeatures::default().buffer_device_address(true);
+        let mut structures =
+            vk::PhysicalDeviceAccelerationStructureFeaturesKHR::default().acceleration_structure(true);
+        let mut ray_queries = vk::PhysicalDeviceRayQueryFeaturesKHR::default().ray_query(true);
+        let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_extension_names(&extensions)
             .enabled_features(&features);
+        if queries {
+            info = info.push_next(&mut addresses).push_next(&mut structures).push_next(&mut ray_queries);
+        }
         // SAFETY: the queue family exists, and only supported features and extensions are turned on.
         let raw =
             unsafe { instance.raw.create_device(chosen.physical, &info, None) }.called("vkCreateDevice")?;
@@ -128,7 +149,7 @@ impl Device {
         let queue = unsafe { raw.get_device_queue(chosen.family, 0) };
         let pool = command_pool(&raw, chosen.family)?;
         let debug = instance.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance.raw, &raw));
-        let memory = Memory::new(&instance.raw, &raw, chosen.physical)?;
+        let memory = Memory::new(&instance.raw, &raw, chosen.physical, queries)?;
         let cache = cache.map_or_else(
             || Ok(Cache::none()),
             |folder| {
@@ -145,6 +166,12 @@ impl Device {
             max_anisotropy: (supported.sampler_anisotropy == vk::TRUE)
                 .then_some(chosen.limits.max_sampler_anisotropy),
             physical: chosen.physical,
+            rays: queries.then(|| khr::acceleration_structure::Device::new(&instance.raw, &raw)),
+            scratch_alignment: if queries {
+                ray_tree::scratch_alignment(&instance.raw, chosen.physical)
+            } else {
+                1
+            },
             info: chosen.info,
             queue,
             #[cfg(feature = "viewer")]
@@ -169,6 +196,26 @@ impl Device {
     #[must_use]
     pub fn is_cpu(&self) -> bool {
         self.info.kind == "cpu"
+    }
+
+    /// Whether shaders trace rays by ray queries.
+    #[must_use]
+    pub fn has_ray_queries(&self) -> bool {
+        self.rays.is_some()
+    }
+
+    /// What ray trees are made with.
+    pub(super) fn rays(&self) -> Result<&khr::acceleration_structure::Device> {
+        self.rays.as_ref().ok_or_else(|| Error::Vulkan {
+            call: "ray tree".into(),
+            result: "the device has no ray queries".into(),
+            remedy: "report this".into(),
+        })
+    }
+
+    /// Of what the address of a build's scratch memory is a multiple, bytes.
+    pub(super) fn scratch_alignment(&self) -> u64 {
+        self.scratch_alignment
     }
 
     /// Writes the pipelines compiled so far to the folder that keeps them, if there is one.
@@ -219,7 +266,12 @@ impl Device {
         // SAFETY: the pool belongs to this device, and this thread has the turn.
         let buffers =
             unsafe { self.raw.allocate_command_buffers(&info) }.called("vkAllocateCommandBuffers")?;
-        let result = Commands::record(self, buffers[0], name, record).and_then(|value| {
+        let recorded = Commands::record(self, buffers[0], name, |cmd| {
+            let value = record(cmd)?;
+            cmd.visible_to_all();
+            Ok(value)
+        });
+        let result = recorded.and_then(|value| {
             self.submit_and_wait(buffers[0])?;
             Ok(value)
         });
@@ -245,12 +297,17 @@ impl Device {
 
     /// The words of a shader, as built or replaced.
     pub(super) fn words(&self, shader: Shader) -> Vec<u32> {
-        self.replaced(shader).unwrap_or_else(|| shader.words())
+        self.replaced(shader).unwrap_or_else(|| shader.words(self.has_ray_queries()))
+    }
+
+    /// Of which of its words a shader is made.
+    fn kind(&self, shader: Shader) -> (&'static str, bool) {
+        (shader.name, shader.kinds().any(|ray_queries| ray_queries && self.has_ray_queries()))
     }
 
     /// The words in a shader's place, if there are any.
     pub(super) fn replaced(&self, shader: Shader) -> Option<Vec<u32>> {
-        self.replaced.read().unwrap_or_else(PoisonError::into_inner).get(shader.name).cloned()
+        self.replaced.read().unwrap_or_else(PoisonError::into_inner).get(&self.kind(shader)).cloned()
     }
 
     /// Hands the queue to `call`, which no other thread uses meanwhile.
@@ -273,8 +330,8 @@ impl Device {
     }
 
     #[cfg(feature = "viewer")]
-    pub(super) fn swapchain_loader(&self) -> ash::khr::swapchain::Device {
-        ash::khr::swapchain::Device::new(&self.instance.raw, &self.raw)
+    pub(super) fn swapchain_loader(&self) -> khr::swapchain::Device {
+        khr::swapchain::Device::new(&self.instance.raw, &self.raw)
     }
 
     /// The largest image of this format, kind and usage.

@@ -243,7 +243,7 @@ fn require_room(device: &Device, name: &str, info: &vk::ImageCreateInfo<'_>) -> 
 
 fn usage(used: Use) -> vk::ImageUsageFlags {
     match used {
-        Use::Nothing | Use::HostRead | Use::IndirectRead | Use::Acquired | Use::Present => {
+        Use::Nothing | Use::HostRead | Use::IndirectRead | Use::RayTree | Use::Acquired | Use::Present => {
             vk::ImageUsageFlags::empty()
         }
         Use::TransferWrite => vk::ImageUsageFlags::TRANSFER_DST,

@@ -70,6 +70,14 @@ impl Instance {
         Ok(Arc::new(instance))
     }
 
+    /// Whether a device copies pictures to this format by blits.
+    #[cfg(feature = "viewer")]
+    pub(super) fn blits_to(&self, physical: vk::PhysicalDevice, format: vk::Format) -> bool {
+        // SAFETY: the device belongs to the instance.
+        let found = unsafe { self.raw.get_physical_device_format_properties(physical, format) };
+        found.optimal_tiling_features.contains(vk::FormatFeatureFlags::BLIT_DST)
+    }
+
     fn listen(&mut self) -> Result<()> {
         let log = Arc::new(ValidationLog::default());
         let loader = ash::ext::debug_utils::Instance::new(&self.entry, &self.raw);

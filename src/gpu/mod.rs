@@ -23,6 +23,7 @@ mod image;
 mod instance;
 mod pipeline;
 mod query;
+mod ray_tree;
 mod render_pass;
 mod requirements;
 mod sampler;
@@ -42,6 +43,7 @@ pub use pipeline::{
     Blend, ComputePipeline, Cull, DepthTest, GraphicsDescription, GraphicsPipeline, Specialization, Vertices,
 };
 pub use query::Timestamps;
+pub use ray_tree::RayTree;
 pub use render_pass::{Attachment, Framebuffer, Outside, RenderPass, Subpass};
 pub use requirements::{Check, Report};
 pub use sampler::Sampler;
@@ -62,7 +64,10 @@ fn failed(call: impl Into<String>, result: vk::Result) -> Error {
         vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
             "render a smaller picture or fewer lights, or free memory"
         }
-        vk::Result::ERROR_DEVICE_LOST => "update the driver, or choose another device with --device",
+        vk::Result::ERROR_DEVICE_LOST => {
+            "render a smaller picture, fewer lights or with a larger light_error, which take the device less time at once; or update the driver, or choose another device with --device"
+        }
+        vk::Result::ERROR_FORMAT_NOT_SUPPORTED => "update the driver, or choose another device with --device",
         _ => "run again with --validate, and report what it says",
     };
     Error::Vulkan { call: call.into(), result: format!("{result:?}"), remedy: remedy.into() }

@@ -86,6 +86,7 @@ impl RenderPass {
             .collect();
         dependencies.extend(outside.iter().map(|edge| match *edge {
             Outside::Before(before, after) => dependency(vk::SUBPASS_EXTERNAL, 0, before, after),
+            Outside::BeforeLast(before, after) => dependency(vk::SUBPASS_EXTERNAL, last, before, after),
             Outside::After(before, after) => dependency(last, vk::SUBPASS_EXTERNAL, before, after),
         }));
         let info = vk::RenderPassCreateInfo::default()
@@ -120,6 +121,8 @@ impl RenderPass {
 pub enum Outside {
     /// Earlier work, then the first subpass.
     Before(Use, Use),
+    /// Earlier work, then the last subpass: what is first used there changes its layout no sooner.
+    BeforeLast(Use, Use),
     /// The last subpass, then later work.
     After(Use, Use),
 }

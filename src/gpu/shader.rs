@@ -35,13 +35,21 @@ pub struct Shader {
     /// Its stage.
     pub stage: Stage,
     spirv: Words,
+    /// The same with ray queries in the place of walks over our own tree, of shaders that ask about rays.
+    ray_queries: Option<Words>,
 }
 
 impl Shader {
-    /// The SPIR-V words.
+    /// The SPIR-V words, of a shader that asks about rays with or without ray queries.
     #[must_use]
-    pub fn words(&self) -> Vec<u32> {
-        bytemuck::pod_collect_to_vec(self.spirv.0)
+    pub fn words(&self, ray_queries: bool) -> Vec<u32> {
+        let words = self.ray_queries.filter(|_| ray_queries).unwrap_or(self.spirv);
+        bytemuck::pod_collect_to_vec(words.0)
+    }
+
+    /// Whether there are words without ray queries, and with them.
+    pub fn kinds(&self) -> impl Iterator<Item = bool> + use<> {
+        std::iter::once(false).chain(self.ray_queries.map(|_| true))
     }
 }
 

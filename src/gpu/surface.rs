@@ -99,7 +99,9 @@ impl Surface {
         high: bool,
     ) -> Result<Option<(vk::SurfaceFormatKHR, Encoding)>, vk::Result> {
         // SAFETY: the device presents to the surface.
-        let found = unsafe { self.loader.get_physical_device_surface_formats(physical, self.raw) }?;
+        let mut found = unsafe { self.loader.get_physical_device_surface_formats(physical, self.raw) }?;
+        // Pictures are copied there by a blit, of which not every device is capable for those with ten bits.
+        found.retain(|offer| self.instance.blits_to(physical, offer.format));
         Ok(format(&found, high))
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Two pictures may be on their way at once: while the device copies one and the window takes it, the host records the
 //! next. Rendering a picture anew waits on the device for copies of the one before: the copy was submitted earlier, and the
-//! render pass that overwrites the picture depends on [`Use::TransferRead`] outside of it.
+//! subpass that overwrites the picture depends on [`Use::TransferRead`] outside of its pass.
 
 use super::device::Device;
 use super::flight::{Flight, PATIENCE};
@@ -37,6 +37,7 @@ pub struct Swapchain {
     // By image: signalled once it holds the picture.
     copied: Vec<vk::Semaphore>,
     size: [u32; 2],
+    transform: vk::SurfaceTransformFlagsKHR,
     vsync: bool,
     // Whether a format of high dynamic range is wanted.
     high: bool,
@@ -62,6 +63,7 @@ impl Swapchain {
             images: Vec::new(),
             copied: Vec::new(),
             size: [0; 2],
+            transform: vk::SurfaceTransformFlagsKHR::IDENTITY,
             vsync: true,
             lost: false,
             flights: [Flight::new(device)?, Flight::new(device)?],
@@ -143,6 +145,7 @@ impl Swapchain {
         self.destroy();
         self.raw = raw;
         self.size = size;
+        self.transform = capabilities.current_transform;
         self.encoding = encoding;
         // SAFETY: the swapchain is alive.
         self.images = unsafe { self.loader.get_swapchain_images(raw) }?;
@@ -177,9 +180,23 @@ impl Swapchain {
         self.next = (self.next + 1) % FLIGHTS;
         presenting();
         Ok(match self.present(index)? {
-            Shown::Yes if misfit => Shown::Misfit,
+            Shown::Yes if misfit => self.misfit(),
+            Shown::Misfit => self.misfit(),
             shown => shown,
         })
+    }
+
+    /// What it means that a picture could be shown better: nothing where images made anew would be the same, as some drivers
+    /// say so of every picture.
+    fn misfit(&self) -> Shown {
+        let same = |found: vk::SurfaceCapabilitiesKHR| {
+            extent(&found, self.size) == self.size && found.current_transform == self.transform
+        };
+        if self.surface.capabilities(self.device.physical).is_ok_and(same) {
+            Shown::Yes
+        } else {
+            Shown::Misfit
+        }
     }
 
     fn copy(&mut self, picture: &Arc<Image>, index: usize) -> Result<()> {

@@ -2,7 +2,7 @@
 
 use crate::bvh::Bvh;
 use crate::error::Result;
-use crate::gpu::{DescriptorSet, Device, Image, Use};
+use crate::gpu::{DescriptorSet, Device, Image, RayTree, Use};
 use crate::shared::{self, BVH_WIDTH_LOG2};
 use std::sync::Arc;
 
@@ -11,6 +11,8 @@ pub struct Occluders {
     /// Specialisation constants of what traces rays.
     pub specialization: Vec<(u32, u32)>,
     texels: Image,
+    /// The driver's tree over the same triangles, which ray queries walk instead.
+    ray_tree: Option<RayTree>,
 }
 
 impl Occluders {
@@ -22,11 +24,16 @@ impl Occluders {
     pub fn new(device: &Arc<Device>, bvh: &Bvh) -> Result<Self> {
         let texels = Image::of_texels(device, "occluders", BVH_WIDTH_LOG2, &bvh.texels())?;
         let specialization = vec![(shared::SPEC_OCCLUDER_MASKS, u32::from(bvh.has_masks()))];
-        Ok(Self { specialization, texels })
+        let ray_tree = || RayTree::new(device, bytemuck::cast_slice(bvh.triangles()));
+        let ray_tree = device.has_ray_queries().then(ray_tree).transpose()?;
+        Ok(Self { specialization, texels, ray_tree })
     }
 
     /// Puts it into a scene's set.
     pub fn bind(&self, scene: DescriptorSet<'_>) {
         scene.image(shared::scene::SCENE_BVH, &self.texels, Use::Texture);
+        if let Some(tree) = &self.ray_tree {
+            scene.ray_tree(shared::scene::SCENE_RAY_TREE, tree);
+        }
     }
 }

@@ -191,6 +191,8 @@ fn render_pass(inputs: &PassInputs<'_>, work: Work, hdr_before: Use) -> Result<R
             Outside::Before(Use::ComputeWrite, Use::ColorWrite),
             Outside::Before(Use::DepthWrite, Use::DepthTest),
             Outside::Before(Use::DepthRead, Use::DepthTest),
+            // The picture on its way to a window, which the present subpass draws anew.
+            Outside::BeforeLast(Use::TransferRead, Use::ColorWrite),
             Outside::After(Use::ColorWrite, Use::TransferRead),
         ],
     )

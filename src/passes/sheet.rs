@@ -47,6 +47,8 @@ pub(super) fn sheet_pass(inputs: &PassInputs<'_>, name: &'static str) -> Result<
         &[
             Outside::Before(Use::TransferRead, Use::ColorWrite),
             Outside::Before(Use::ComputeWrite, Use::FragmentRead),
+            // Depth that is only read is stored again when a pass ends, and that counts as a write.
+            Outside::Before(Use::DepthWrite, Use::DepthTest),
             Outside::After(Use::ColorWrite, Use::TransferRead),
         ],
     )

@@ -31,6 +31,8 @@ pub enum BindingKind {
     StorageImage,
     /// `subpassInput`.
     Input,
+    /// `accelerationStructureEXT`; only where the device has ray queries.
+    RayTree,
 }
 
 /// Which shaders see a binding. Limits count per stage, so what one stage alone reads costs the others nothing.

@@ -6,6 +6,7 @@ mod common;
 mod exact;
 mod hits;
 mod probe;
+mod queries;
 mod scenes;
 mod soups;
 mod speed;

@@ -113,7 +113,11 @@ fn nanoseconds(
 #[test]
 #[ignore = "a measurement"]
 fn cpu_time_of_rays() {
-    let gpu = Gpu::open(&Options::default()).unwrap();
+    let gpu = Gpu::open(&Options {
+        ray_queries: std::env::var("AMAS_RAY_QUERIES").ok().map(|value| value == "true"),
+        ..Options::default()
+    })
+    .unwrap();
     for World { name, scene, coherent, random } in worlds() {
         let bvh = Bvh::new(&scene, Vec3::ZERO);
         let (occluders, hits) = (Occluders::new(&gpu, &bvh).unwrap(), Hits::new(&gpu, &scene, &bvh).unwrap());

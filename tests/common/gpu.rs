@@ -28,6 +28,12 @@ impl CheckedGpu {
         Self { gpu, before }
     }
 
+    /// A device of the test's own, with ray queries or without.
+    pub(crate) fn open_with(ray_queries: bool) -> Self {
+        let gpu = Gpu::open(&asked(Some(ray_queries))).unwrap();
+        Self { gpu, before: 0 }
+    }
+
     /// Drops it where the reader should see that it is checked.
     pub(crate) fn finish(self) {}
 }
@@ -42,8 +48,14 @@ fn several() -> Vec<Arc<Gpu>> {
 }
 
 fn one() -> Arc<Gpu> {
-    let options = Options { device: std::env::var("AMAS_DEVICE").ok(), validate: true };
-    Gpu::open(&options).unwrap_or_else(|error| panic!("this test needs a Vulkan device: {error}"))
+    Gpu::open(&asked(None)).unwrap_or_else(|error| panic!("this test needs a Vulkan device: {error}"))
+}
+
+/// The device that `AMAS_DEVICE` names, with ray queries as `AMAS_RAY_QUERIES` says, unless the test says it.
+fn asked(ray_queries: Option<bool>) -> Options {
+    let [device, queries] = ["AMAS_DEVICE", "AMAS_RAY_QUERIES"].map(|name| std::env::var(name).ok());
+    let ray_queries = ray_queries.or_else(|| queries?.parse().ok());
+    Options { device, validate: true, ray_queries }
 }
 
 fn messages(gpu: &Gpu) -> Vec<String> {

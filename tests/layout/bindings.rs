@@ -71,6 +71,7 @@ fn described(module: &Module, variable: &Variable) -> (Option<BindingKind>, u32)
     let kind = match (variable.class, module.typed(of)) {
         (class::UNIFORM, Type::Struct { .. }) if block => Some(BindingKind::Uniform),
         (class::STORAGE_BUFFER, Type::Struct { .. }) if block => Some(BindingKind::Storage),
+        (class::UNIFORM_CONSTANT, Type::RayTree) => Some(BindingKind::RayTree),
         (class::UNIFORM_CONSTANT, Type::SampledImage) => Some(BindingKind::Combined),
         (class::UNIFORM_CONSTANT, Type::Image { dim: SUBPASS_DATA, .. }) => Some(BindingKind::Input),
         (class::UNIFORM_CONSTANT, Type::Image { sampled: 1, .. }) => Some(BindingKind::Sampled),

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use amas::gpu::Stage;
+use amas::gpu::{Stage, shaders};
 use amas::shared::{Binding, BindingKind, Stages, frame, material, pairs, probe, resolve, scene};
 
 use crate::spirv::{Module, Type, class, decoration};
-use crate::{constant, modules};
+use crate::{constant, kinds, modules};
 
 /// Capabilities that shaders may declare, each with the reason that no feature has to be turned on for it. Not here:
 /// Float64, Int64, Int16, Float16, subgroups, image queries, formatless storage images, non-uniform indexing.
@@ -15,6 +15,8 @@ const CAPABILITIES: [(u32, &str); 2] = [
     (40, "InputAttachment: the present subpass reads the colour of its pixel; part of every render pass"),
 ];
 
+/// RayQueryKHR: of devices that have it turned on, and of shaders that were made for these.
+const RAY_QUERY: u32 = 4472;
 /// `maxBoundDescriptorSets` of every device.
 const DESCRIPTOR_SETS: u32 = 4;
 /// `maxPushConstantsSize` of every device.
@@ -32,14 +34,29 @@ const STORAGE_IMAGES: u32 = 4;
 
 #[test]
 fn capabilities_are_those_of_every_device() {
-    for (shader, module) in modules() {
+    for (shader, ray_queries) in kinds() {
+        let module = Module::parse(&shader.words(ray_queries));
         for &capability in &module.capabilities {
             let allowed = CAPABILITIES.iter().any(|row| row.0 == capability);
+            let allowed = allowed || ray_queries && capability == RAY_QUERY;
             assert!(allowed, "{}: capability {capability} is none of {CAPABILITIES:?}", shader.name);
         }
-        let none: &[String] = &[];
-        assert_eq!(module.extensions, none, "{}: extensions", shader.name);
+        let extensions: &[&str] = if ray_queries { &["SPV_KHR_ray_query"] } else { &[] };
+        assert_eq!(module.extensions, extensions, "{}: extensions", shader.name);
     }
+}
+
+/// Whatever includes bind/bvh.glsl is there with ray queries, too; nothing else is.
+#[test]
+fn shaders_that_ask_about_rays_are_there_twice() {
+    let asks =
+        |module: &Module| module.variables.iter().any(|variable| module.name(variable.id) == "bvh_texels");
+    for shader in shaders::ALL {
+        let [walks, kinds] =
+            [asks(&Module::parse(&shader.words(false))), shader.kinds().any(|queries| queries)];
+        assert_eq!(walks, kinds, "{}", shader.name);
+    }
+    assert_eq!(shaders::ALL.iter().filter(|shader| shader.kinds().count() == 2).count(), 6);
 }
 
 #[test]

@@ -9,10 +9,14 @@ mod structs;
 use amas::gpu::{Shader, shaders};
 use spirv::Module;
 
-/// Every shader that ships.
+/// Every shader that ships, with ray queries and without.
 fn modules() -> impl Iterator<Item = (Shader, Module)> {
-    let all = shaders::ALL.iter();
-    all.map(|&shader| (shader, Module::parse(&shader.words())))
+    kinds().map(|(shader, ray_queries)| (shader, Module::parse(&shader.words(ray_queries))))
+}
+
+/// Every shader, and whether with ray queries.
+fn kinds() -> impl Iterator<Item = (Shader, bool)> {
+    shaders::ALL.iter().flat_map(|&shader| shader.kinds().map(move |ray_queries| (shader, ray_queries)))
 }
 
 /// The value of a constant that `shared.rs` hands to GLSL.

@@ -13,6 +13,7 @@ pub(crate) enum Type {
     Struct { members: Vec<u32> },
     Image { dim: u32, sampled: u32 },
     SampledImage,
+    RayTree,
     Pointer { of: u32 },
     Other,
 }
@@ -81,7 +82,7 @@ impl Module {
             // LocalSize.
             (16, [_, 17, x, y, z]) => self.local_size = Some([*x, *y, *z]),
             (17, [capability]) => drop(self.capabilities.insert(*capability)),
-            (19..=39, [id, operands @ ..]) => {
+            (19..=39 | 5341, [id, operands @ ..]) => {
                 self.types.insert(*id, declared_type(opcode, operands));
             }
             (43, [_, id, value, ..]) => drop(self.constants.insert(*id, *value)),
@@ -203,6 +204,7 @@ fn declared_type(opcode: u32, operands: &[u32]) -> Type {
         (24, &[column, count]) => Type::Matrix { column, count },
         (25, &[_, dim, _, _, _, sampled, ..]) => Type::Image { dim, sampled },
         (27, _) => Type::SampledImage,
+        (5341, _) => Type::RayTree,
         (28, &[of, length]) => Type::Array { of, length },
         (29, &[of]) => Type::RuntimeArray { of },
         (30, members) => Type::Struct { members: members.to_vec() },

@@ -32,7 +32,7 @@ impl Opened {
     fn new(event_loop: &ActiveEventLoop) -> Self {
         let attributes = Window::default_attributes().with_inner_size(PhysicalSize::new(SIZE[0], SIZE[1]));
         let window = Arc::new(event_loop.create_window(attributes).unwrap());
-        let options = Options { device: Some("llvmpipe".into()), validate: true };
+        let options = Options { device: Some("llvmpipe".into()), validate: true, ray_queries: None };
         let display = event_loop.owned_display_handle();
         let (device, swapchain) =
             Gpu::open_for_window(&options, &window, display, &WindowOptions::default()).unwrap();

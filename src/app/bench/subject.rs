@@ -7,7 +7,7 @@ use super::super::{FRAME_RATE, camera, in_scene, load_scene, of_size, warn_of_ga
 use super::suites::{Case, Measured};
 use crate::error::Result;
 use crate::frame::{Frame, FrameInputs, FrameSettings, PassTime, Timings};
-use crate::gpu::{Device, Options};
+use crate::gpu::Device;
 use crate::gpu_scene::GpuScene;
 use crate::passes::floors::Floors;
 use crate::passes::pairs::PairCount;
@@ -114,7 +114,7 @@ impl Stage {
         let scene = source.load(options)?;
         let camera = camera(&scene, None)?.clone();
         laps.lap("scene");
-        let chosen = Options { device: options.device.device.clone(), validate: options.device.validate };
+        let chosen = options.device.asked();
         let device = Device::open(&chosen)?;
         laps.lap("device");
         let uploaded = GpuScene::new(&device, &scene);

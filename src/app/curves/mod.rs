@@ -13,7 +13,7 @@ use super::outputs::check_folder;
 use super::report;
 use super::terminal::print;
 use crate::error::Result;
-use crate::gpu::{Device, Options};
+use crate::gpu::Device;
 use crate::image::write_atomically;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
@@ -42,8 +42,7 @@ pub(super) fn run(options: &ReportOptions) -> Result<()> {
     let wanted = |row: &&Row| options.chapter.is_none_or(|only| only == row.chapter);
     let files = CHAPTERS.iter().filter(wanted).flat_map(|row| row.files);
     files.into_iter().try_for_each(|name| check_folder(&options.out.join(name)))?;
-    let device =
-        Device::open(&Options { device: options.device.device.clone(), validate: options.device.validate })?;
+    let device = Device::open(&options.device.asked())?;
     for row in CHAPTERS.iter().filter(wanted) {
         print((row.run)(&device, options.quick, &options.out)?)?;
     }

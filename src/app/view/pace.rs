@@ -1,9 +1,9 @@
 //! How much of a frame of gathered light is done at a time, so that input never waits for long.
 
 /// Milliseconds that a slice may take in any case.
-const LEAST: f64 = 15.0;
+const LEAST: f64 = 10.0;
 /// And the share of a frame of direct light.
-const SHARE: f64 = 0.2;
+const SHARE: f64 = 0.15;
 
 /// What slices cost, as the last ones did.
 #[derive(Debug, Default)]
@@ -97,12 +97,12 @@ mod tests {
 
     #[test]
     fn slices_take_what_they_may() {
-        assert_eq!(tenth(45, [0.0, 1.0, 0.0], 50.0), (15.0, 3));
-        assert_eq!(tenth(45, [0.0, 1.0, 0.0], 200.0), (40.0, 2));
+        assert_eq!(tenth(45, [0.0, 1.0, 0.0], 50.0), (10.0, 5));
+        assert_eq!(tenth(45, [0.0, 1.0, 0.0], 200.0), (30.0, 2));
         // Rows that take longer come one by one.
         assert_eq!(tenth(45, [0.0, 30.0, 0.0], 50.0), (30.0, 45));
         // The frame's end comes with its last row alone.
-        assert_eq!(tenth(45, [5.0, 1.0, 14.0], 50.0), (15.0, 5));
+        assert_eq!(tenth(45, [5.0, 1.0, 14.0], 50.0), (15.0, 6));
         assert_eq!(tenth(1, [5.0, 1.0, 14.0], 50.0), (20.0, 1));
     }
 }

@@ -61,24 +61,15 @@ fn stamps(root: &Path) -> Stamps {
 /// Compiles the program's shaders that changed files are part of.
 fn compile_changed(root: &Path, changed: &BTreeSet<String>) -> Result<Replaced, String> {
     let compiler = shaderc::Compiler::new().map_err(|error| format!("shaderc: {error}"))?;
-    let touched = shaders::ALL.iter().filter(|shader| !parts(root, shader.name).is_disjoint(changed));
+    let touched =
+        shaders::ALL.iter().filter(|shader| !compile::parts(root, shader.name).is_disjoint(changed));
     touched
-        .map(|shader| Ok((shader.name, compile::compile(&compiler, root, shader.name, shared::GLSL)?)))
+        .flat_map(|shader| shader.kinds().map(move |ray_queries| (shader.name, ray_queries)))
+        .map(|(name, ray_queries)| {
+            let words = compile::compile(&compiler, (root, name), shared::GLSL, ray_queries)?;
+            Ok(((name, ray_queries), words))
+        })
         .collect()
-}
-
-/// A shader's file and all that it includes.
-fn parts(root: &Path, name: &str) -> BTreeSet<String> {
-    let mut parts = BTreeSet::new();
-    let mut left = vec![name.to_owned()];
-    while let Some(name) = left.pop() {
-        let text = compile::text(root, &name).unwrap_or_default();
-        let included =
-            text.lines().filter_map(|line| line.trim().strip_prefix("#include \"")?.split('"').next());
-        left.extend(included.filter(|name| !parts.contains(*name)).map(str::to_owned));
-        parts.insert(name);
-    }
-    parts
 }
 
 #[cfg(test)]
@@ -88,7 +79,7 @@ mod tests {
     #[test]
     fn changes_reach_whatever_includes_them() {
         let root = Path::new(CHECKOUT);
-        let of = |name| parts(root, name);
+        let of = |name| compile::parts(root, name);
         assert!(of("present/present.frag").contains("lib/tonemap.glsl"));
         assert!(of("direct/area.frag").contains("lib/bsdf/fresnel.glsl"));
         assert!(!of("overlay/overlay.vert").contains("lib/tonemap.glsl"));
@@ -96,12 +87,12 @@ mod tests {
         let compiled = compile_changed(root, &changed).unwrap();
         // What is compiled anew is what the program was built with.
         for shader in shaders::ALL {
-            assert!(
-                compiled.get(shader.name).is_none_or(|words| *words == shader.words()),
-                "{}",
-                shader.name
-            );
+            for ray_queries in shader.kinds() {
+                let words = compiled.get(&(shader.name, ray_queries));
+                assert!(words.is_none_or(|words| *words == shader.words(ray_queries)), "{}", shader.name);
+            }
         }
-        assert!(compiled.contains_key("present/present.frag"));
+        assert!(compiled.contains_key(&("present/present.frag", false)));
+        assert!(!compiled.contains_key(&("present/present.frag", true)));
     }
 }

@@ -4,7 +4,7 @@ use super::folders;
 use crate::app::args::ViewOptions;
 use crate::app::terminal::complain;
 use crate::error::{Error, Result};
-use crate::gpu::{Device, Image, Options, Shown, Swapchain, WindowOptions};
+use crate::gpu::{Device, Image, Shown, Swapchain, WindowOptions};
 use crate::scene::settings::Encoding;
 use std::sync::Arc;
 use winit::dpi::PhysicalSize;
@@ -37,7 +37,7 @@ impl Stage {
         })?;
         let window = Arc::new(window);
         let wanted = WindowOptions { high: options.hdr, cache: folders::cache() };
-        let asked = Options { device: options.device.device.clone(), validate: options.device.validate };
+        let asked = options.device.asked();
         let (device, mut swapchain) =
             Device::open_for_window(&asked, &window, event_loop.owned_display_handle(), &wanted)?;
         if options.hdr && swapchain.encoding() == Encoding::Srgb {
