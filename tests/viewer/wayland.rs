@@ -151,6 +151,8 @@ fn a_wayland_window_follows_the_scale_of_its_output() {
 fn a_wayland_window_follows_the_scales_of_two_outputs() {
     /// Left "super", with which weston moves windows.
     const SUPER: u8 = 133;
+    /// In the lower right corner of the second output, where no window is in this test.
+    const ASIDE: [u16; 2] = [595, 275];
     let folder = tempfile::tempdir().unwrap();
     let scene = scene(folder.path());
     let display = Display::of_size([640, 320]);
@@ -163,7 +165,12 @@ fn a_wayland_window_follows_the_scales_of_two_outputs() {
     });
     client.place(outputs.unwrap().1, [200, 0]);
     let [small, large] = [[96, 64], [192, 128]].map(|size| rendered(&scene, size));
+    // New windows open where the pointer is.
+    client.point([10, 10]);
     let view = compositor.open_telling(&scene);
+    let told = || std::fs::read_to_string(told(&scene)).unwrap();
+    wait_until("the window", || told().contains("enter(wl_output"));
+    client.point(ASIDE);
     // Where a picture's upper left corner is on the screen.
     let find = |picture: &[[u8; 3]], [width, height]: [usize; 2]| {
         let screen = display.corner([640, 280]);
@@ -194,11 +201,12 @@ fn a_wayland_window_follows_the_scales_of_two_outputs() {
         }
         client.button(1, false);
         client.key(SUPER, false);
-        // The pointer does not leave its output while a button is down.
+        // It hides a part of the picture.
         std::thread::sleep(Duration::from_millis(300));
+        client.point(ASIDE);
     };
     let [x, y] = wait("the picture at scale 1", &small, [96, 64]);
-    // With its left end at the edge, so that the second output has all of the window but that.
+    // The pointer does not leave its output while a button is down: its left end stays behind at first.
     drag([x + 2, y + 32], 198);
     wait_until("twice the pixels", || sizes(&scene).last().is_some_and(|size| size == "192, 128"));
     let y = 2 * (y + 32);

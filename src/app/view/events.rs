@@ -1,6 +1,6 @@
 //! What the window system and the other threads tell the viewer, and when it draws of itself.
 
-use super::stage::Stage;
+use super::stage::{self, Stage};
 use super::{Event, Viewer};
 use crate::error::{Error, Result};
 use std::time::{Duration, Instant};
@@ -13,9 +13,16 @@ use winit::window::WindowId;
 const LOOK: Duration = Duration::from_millis(100);
 
 /// Time that a display has to say that the window is gone, once the driver fails to draw there.
-const GRACE: Duration = Duration::from_millis(500);
+const GRACE: Duration = Duration::from_millis(200);
 
 impl Viewer<'_> {
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
+        let window = stage::window(event_loop, self.size)?;
+        self.window = Some(window.clone());
+        self.stage = Some(Stage::open(event_loop, self.options, window)?);
+        Ok(())
+    }
+
     /// Ends the loop where something failed, or where all is done.
     fn settle(&mut self, event_loop: &ActiveEventLoop, result: Result<()>) {
         if let Err(error) = result
@@ -23,7 +30,7 @@ impl Viewer<'_> {
         {
             // Another program may have destroyed the window: the driver knows before the display has said so.
             let of_driver = matches!(error, Error::NoDevice { .. } | Error::Vulkan { .. });
-            self.end = (of_driver && self.stage.is_some()).then(|| Instant::now() + GRACE);
+            self.end = (of_driver && self.window.is_some()).then(|| Instant::now() + GRACE);
             self.outcome = Err(error);
         }
         let failed = self.outcome.is_err() && self.end.is_none_or(|end| end <= Instant::now());
@@ -92,10 +99,9 @@ impl Viewer<'_> {
 impl ApplicationHandler<Event> for Viewer<'_> {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.stage.is_none() {
-            let opened = Stage::open(event_loop, self.options, self.size);
+            let opened = self.open(event_loop);
             self.startup.reached("device");
-            let result = opened.map(|stage| self.stage = Some(stage));
-            self.settle(event_loop, result);
+            self.settle(event_loop, opened);
         }
         self.redraw();
     }

@@ -42,11 +42,13 @@ use pilot::Pilot;
 use recent::Recent;
 use stage::Stage;
 use startup::Startup;
+use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Instant;
 use waiting::Waiting;
 use watch::Watch;
 use winit::event_loop::{EventLoop, EventLoopProxy};
+use winit::window::Window;
 use worker::Worker;
 
 /// What other threads tell the window's.
@@ -83,6 +85,7 @@ fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
         proxy,
         startup,
         current: options.scene.clone(),
+        window: None,
         stage: None,
         picture: None,
         pilot: None,
@@ -122,6 +125,8 @@ struct Viewer<'a> {
     /// The scene in the window, or that is to be the first there.
     current: SceneOptions,
     watch: Watch,
+    /// Held to the end: if it is destroyed, it was not from here.
+    window: Option<Arc<Window>>,
     stage: Option<Stage>,
     /// `None` until the first scene is loaded.
     picture: Option<Box<Picture>>,

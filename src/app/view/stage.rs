@@ -24,20 +24,25 @@ pub(super) struct Stage {
     title: String,
 }
 
+/// Opens the window.
+pub(super) fn window(event_loop: &ActiveEventLoop, [width, height]: [u32; 2]) -> Result<Arc<Window>> {
+    let attributes =
+        Window::default_attributes().with_title("amas").with_inner_size(PhysicalSize::new(width, height));
+    let window = event_loop.create_window(attributes).map_err(|error| Error::NoDevice {
+        cause: format!("the window cannot be opened ({error})"),
+        remedy: "check the display".into(),
+    })?;
+    Ok(Arc::new(window))
+}
+
 impl Stage {
-    /// Opens the window, and the device that presents to it.
+    /// Opens the device that presents to a window just opened.
     pub(super) fn open(
         event_loop: &ActiveEventLoop,
         options: &ViewOptions,
-        [width, height]: [u32; 2],
+        window: Arc<Window>,
     ) -> Result<Self> {
-        let attributes =
-            Window::default_attributes().with_title("amas").with_inner_size(PhysicalSize::new(width, height));
-        let window = event_loop.create_window(attributes).map_err(|error| Error::NoDevice {
-            cause: format!("the window cannot be opened ({error})"),
-            remedy: "check the display".into(),
-        })?;
-        let window = Arc::new(window);
+        let size = window.inner_size().into();
         let wanted = WindowOptions { high: options.hdr, cache: folders::cache() };
         let asked = Options { device: options.device.device.clone(), validate: options.device.validate };
         let (device, mut swapchain) =
@@ -49,7 +54,7 @@ impl Stage {
         Ok(Self {
             swapchain,
             device,
-            size: window.inner_size().into(),
+            size,
             window,
             fits: false,
             vsync: !options.no_vsync,

@@ -35,12 +35,13 @@ impl Job {
                 ui.set_width(width);
                 let button = ui.horizontal(|ui| {
                     let button = ui.button("Cancel");
-                    ui.add(egui::Label::new(format!("Loading {}", self.name)).truncate());
+                    let what = format!("{:.0} % of {}", 100.0 * self.fraction, self.name);
+                    ui.add(egui::Label::new(what).truncate());
                     button
                 });
                 let [r, g, b, _] = waiting::DONE;
                 let bar = ProgressBar::new(self.fraction as f32).desired_width(width);
-                ui.add(bar.fill(egui::Color32::from_rgb(r, g, b)).show_percentage());
+                ui.add(bar.fill(egui::Color32::from_rgb(r, g, b)));
                 button.inner.clicked()
             })
         });

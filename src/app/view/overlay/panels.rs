@@ -49,9 +49,11 @@ impl Gui {
 
     /// Why shaders or a scene are not shown, beside the panels.
     pub(super) fn complaints(&mut self, context: &Context) {
-        let left = if self.panels { WIDTH + 48.0 } else { 8.0 };
+        let left = if self.panels { WIDTH + 80.0 } else { 8.0 };
+        let mut top = 8.0;
         for (title, trouble) in [("Shaders", &mut self.trouble), ("Scene", &mut self.refused)] {
-            trouble.take_if(|trouble| !complain(context, title, trouble, left));
+            trouble.take_if(|trouble| !complain(context, title, trouble, [left, top]));
+            top += if trouble.is_some() { 180.0 } else { 0.0 };
         }
     }
 
@@ -95,10 +97,10 @@ fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
     egui::CollapsingHeader::new(title).default_open(true).show(ui, contents);
 }
 
-/// What went wrong, in a window that can be closed; whether it stays.
-fn complain(context: &Context, title: &str, trouble: &str, left: f32) -> bool {
+/// What went wrong, in a window at a place, that can be closed; whether it stays.
+fn complain(context: &Context, title: &str, trouble: &str, place: [f32; 2]) -> bool {
     let mut open = true;
-    let window = egui::Window::new(title).open(&mut open).collapsible(false).default_pos([left, 8.0]);
+    let window = egui::Window::new(title).open(&mut open).collapsible(false).current_pos(place);
     window.show(context, |ui| {
         ScrollArea::both().max_height(120.0).show(ui, |ui| {
             ui.label(egui::RichText::new(trouble).monospace().color(Color32::LIGHT_RED));
