@@ -10,6 +10,15 @@ const SIZE: [u32; 2] = [96, 64];
 const OBJ: &str =
     "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 4/4 3/3 2/2 1/1\n";
 
+/// An OBJ file of n × n points, two triangles for each square.
+fn grid(n: usize) -> String {
+    let points = (0..n * n).map(|i| format!("v {} 0 {}\n", i % n, i / n));
+    let squares = (0..n * (n - 1)).filter(|i| i % n < n - 1).map(|i| i + 1);
+    let triangles =
+        squares.map(|a| format!("f {a} {} {}\nf {} {} {}\n", a + n, a + 1, a + 1, a + n, a + n + 1));
+    points.chain(triangles).collect()
+}
+
 /// A quarter of a million lights, which take their time.
 const MANY: &str = "[[light]]\ntype = \"points\"\ngenerate = { count = 250000, seed = 1, min = [-1, 0, -1], max = [1, 2, 1], intensity = [0.1, 0.2], range = 0.01 }\n";
 
@@ -112,8 +121,11 @@ fn loading_over_a_picture_shows_a_bar_and_can_be_cancelled() {
     let path = scene(folder.path());
     let first = rendered(&path, LARGE);
     let mut open = Open::new(&path, LARGE, &first);
-    let other = folder.path().join("many.toml");
-    std::fs::write(&other, format!("{SCENE}{}", MANY.repeat(4))).unwrap();
+    // 320,000 triangles and the tree over them take more than a second.
+    let other = folder.path().join("other.toml");
+    std::fs::write(folder.path().join("grid.obj"), grid(400)).unwrap();
+    let text = SCENE.replace("shape = \"plane\"\nsize = [4, 4]", "obj = \"grid.obj\"");
+    std::fs::write(&other, text.replace("[render]", "[render]\nshadows = true")).unwrap();
     // In the middle half of the window, at its top; the rows below are the picture's.
     let bar = |open: &Open| {
         let screen = open.display.corner([320, 240]);
