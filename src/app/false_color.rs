@@ -29,11 +29,12 @@ pub(super) fn of(quantity: Quantity, values: &[[f32; 4]]) -> (Vec<[u8; 3]>, Opti
     }
 }
 
-/// A heat map of `values` from `range[0]` to `range[1]`, the ramp's middle where these are equal; black where there is
-/// none.
+/// A heat map of `values` from `range[0]` to `range[1]`; where these are equal, the ramp's middle, or its lower end for zero: no
+/// lights, no error. Black where there is none.
 pub(super) fn heat(values: &[Option<f32>], range: [f32; 2]) -> Vec<[u8; 3]> {
     let span = f64::from(range[1] - range[0]);
-    let color = |value: f32| ramp(if span > 0.0 { f64::from(value - range[0]) / span } else { 0.5 });
+    let constant = if range[0] == 0.0 { 0.0 } else { 0.5 };
+    let color = |value: f32| ramp(if span > 0.0 { f64::from(value - range[0]) / span } else { constant });
     values.iter().map(|value| value.map_or([0; 3], color)).collect()
 }
 
@@ -103,6 +104,7 @@ mod tests {
         assert!(map.windows(2).all(|pair| luma(&pair[0]) < luma(&pair[1])));
         assert_eq!((map[0], map[100]), ([0, 0, 0], [255, 250, 200]));
         assert_eq!(heat(&[None, Some(3.0)], [3.0, 3.0]), [[0; 3], [181, 50, 91]]);
+        assert_eq!(heat(&[None, Some(0.0)], [0.0, 0.0]), [[0; 3]; 2]);
     }
 
     /// 0.5 → 188: IEC 61966-2-1.

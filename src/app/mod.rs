@@ -11,6 +11,7 @@ mod fit;
 mod fit_maps;
 mod info;
 mod interrupt;
+mod keys;
 mod load;
 mod measure;
 mod outputs;

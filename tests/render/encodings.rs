@@ -2,6 +2,7 @@
 
 use amas::gpu::Use;
 use amas::scene::settings::{Encoding, Tonemap};
+use glam::{DMat3, DVec3};
 use half::f16;
 
 use crate::support::{FIVE_MATERIALS, Rig, scene};
@@ -50,6 +51,51 @@ fn encoded_values_are_those_of_the_standards() {
             for value in encoded.iter().flat_map(|pixel| &pixel[..3]) {
                 let error = (value.to_f64() / want - 1.0).abs();
                 assert!(error < 1.5e-3, "{encoding:?}, {luminance} cd/m²: {value}, not {want}");
+            }
+        }
+    }
+}
+
+/// From a display's primaries and white, as chromaticities, to CIE XYZ with white at Y = 1.
+fn to_xyz(primaries: [[f64; 2]; 3]) -> DMat3 {
+    let xyz = |[x, y]: [f64; 2]| DVec3::new(x / y, 1.0, (1.0 - x - y) / y);
+    let columns = DMat3::from_cols(xyz(primaries[0]), xyz(primaries[1]), xyz(primaries[2]));
+    // D65, which both have.
+    columns * DMat3::from_diagonal(columns.inverse() * xyz([0.3127, 0.3290]))
+}
+
+/// SMPTE ST 2084, equation 5.2: a luminance in cd/m².
+fn perceptual_quantizer(luminance: f64) -> f64 {
+    let (m1, m2) = (2610.0 / 16384.0, 128.0 * 2523.0 / 4096.0);
+    let (c1, c2, c3) = (3424.0 / 4096.0, 32.0 * 2413.0 / 4096.0, 32.0 * 2392.0 / 4096.0);
+    let y = (luminance / 10_000.0).powf(m1);
+    ((c1 + c2 * y) / (1.0 + c3 * y)).powf(m2)
+}
+
+/// Colours, whose channels mix on the way to the primaries of BT.2020. Values are halves, which are off by 4.9e-4 at most.
+#[test]
+fn colours_keep_their_chromaticity() {
+    let bt709 = to_xyz([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]]);
+    let bt2020 = to_xyz([[0.708, 0.292], [0.170, 0.797], [0.131, 0.046]]);
+    for color in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(0.2, 0.5, 4.0)] {
+        let wide = bt2020.inverse() * bt709 * color * 203.0;
+        let wants = [
+            (Encoding::ScRgb, (color * 203.0 / 80.0).to_array()),
+            (Encoding::Hdr10, wide.to_array().map(perceptual_quantizer)),
+        ];
+        for (encoding, want) in wants {
+            let text = format!(
+                "[render]\nsize = [4, 4]\ntonemap = \"none\"\nbackground = {:?}\n\
+                 [[camera]]\nposition = [0, 0, 1]\ntarget = [0, 0, 0]\nvertical_fov = 40\n",
+                color.to_array()
+            );
+            let mut rig = Rig::with(scene(&text), |settings| settings.encoding = encoding);
+            rig.render();
+            let encoded: Vec<[f16; 4]> =
+                rig.frame.picture().fetch(Use::TransferRead, Use::TransferRead).unwrap();
+            for (got, want) in encoded.iter().flat_map(|pixel| pixel[..3].iter().zip(want)) {
+                let error = (got.to_f64() - want).abs();
+                assert!(error <= 1e-3 * want, "{encoding:?}, {color}: {got}, not {want}");
             }
         }
     }

@@ -115,6 +115,18 @@ impl Client {
         self.send(12, 0, &words(&[window, X_AND_Y, x, y]));
     }
 
+    /// A window of that size in front of all others, in the screen's upper left corner.
+    pub(super) fn cover(&mut self, [width, height]: [u32; 2]) -> u32 {
+        const INPUT_OUTPUT: u32 = 1;
+        const OVERRIDE_REDIRECT: u32 = 0x200;
+        self.id += 1;
+        let (id, root) = (self.id, self.root);
+        let size = width | height << 16;
+        self.send(1, 0, &words(&[id, root, 0, size, INPUT_OUTPUT << 16, 0, OVERRIDE_REDIRECT, 1]));
+        self.send(8, 0, &words(&[id]));
+        id
+    }
+
     pub(super) fn destroy(&mut self, window: u32) {
         self.send(4, 0, &words(&[window]));
     }

@@ -10,6 +10,18 @@ const SIZE: [u32; 2] = [96, 64];
 const OBJ: &str =
     "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 4/4 3/3 2/2 1/1\n";
 
+/// An OBJ file of n × n points, two triangles for each square.
+fn grid(n: usize) -> String {
+    let points = (0..n * n).map(|i| format!("v {} 0 {}\n", i % n, i / n));
+    let squares = (0..n * (n - 1)).filter(|i| i % n < n - 1).map(|i| i + 1);
+    let triangles =
+        squares.map(|a| format!("f {a} {} {}\nf {} {} {}\n", a + n, a + 1, a + 1, a + n, a + n + 1));
+    points.chain(triangles).collect()
+}
+
+/// A quarter of a million lights, which take their time.
+const MANY: &str = "[[light]]\ntype = \"points\"\ngenerate = { count = 250000, seed = 1, min = [-1, 0, -1], max = [1, 2, 1], intensity = [0.1, 0.2], range = 0.01 }\n";
+
 fn texture(path: &Path, color: [u8; 3]) {
     image::RgbImage::from_pixel(4, 4, image::Rgb(color)).save(path).unwrap();
 }
@@ -43,8 +55,7 @@ fn changed_files_are_loaded_again() {
 
     let before = rendered(&path, SIZE);
     std::fs::write(&path, format!("{text}\nnonsense")).unwrap();
-    std::thread::sleep(Duration::from_secs(2));
-    open.shows("the old picture", SIZE, &before);
+    wait_until("the message", || open.display.corner([96, 64]) != before);
     std::fs::write(&path, &text).unwrap();
     follows(&open, "the repaired scene");
     open.client.tap(F5);
@@ -73,8 +84,10 @@ fn dropped_files_are_shown() {
         open.shows("what was dropped", SIZE, &picture);
     }
     open.client.drop_file(open.window, &text);
-    std::thread::sleep(Duration::from_millis(500));
-    open.shows("the old picture", SIZE, &rendered(&obj, SIZE));
+    let before = rendered(&obj, SIZE);
+    wait_until("the message", || open.display.corner([96, 64]) != before);
+    open.client.drop_file(open.window, &other);
+    open.shows("a scene again", SIZE, &rendered(&other, SIZE));
     let output = open.close();
     assert_eq!(output.status.code(), Some(0));
     assert!(stderr(&output).contains("notes.txt: this is no scene"), "{}", stderr(&output));
@@ -85,8 +98,7 @@ fn dropped_files_are_shown() {
 fn loading_shows_a_bar_and_can_be_cancelled() {
     let folder = tempfile::tempdir().unwrap();
     let path = scene(folder.path());
-    let many = "[[light]]\ntype = \"points\"\ngenerate = { count = 250000, seed = 1, min = [-1, 0, -1], max = [1, 2, 1], intensity = [0.1, 0.2], range = 0.01 }\n";
-    std::fs::write(&path, format!("{SCENE}{}", many.repeat(4))).unwrap();
+    std::fs::write(&path, format!("{SCENE}{}", MANY.repeat(4))).unwrap();
     let display = Display::start();
     let mut client = display.connect();
     let view = View::open_plain(&display, &path, &["--size", "200x120"]);
@@ -99,6 +111,60 @@ fn loading_shows_a_bar_and_can_be_cancelled() {
     client.tap(ESCAPE);
     view.ends_well();
     println!("ended after {:?}", begin.elapsed());
+}
+
+/// Over a picture, too; the button ends it as Esc does, and the picture stays.
+#[test]
+fn loading_over_a_picture_shows_a_bar_and_can_be_cancelled() {
+    const LARGE: [u32; 2] = [320, 240];
+    let folder = tempfile::tempdir().unwrap();
+    let path = scene(folder.path());
+    let first = rendered(&path, LARGE);
+    let mut open = Open::new(&path, LARGE, &first);
+    // 320,000 triangles and the tree over them take more than a second.
+    let other = folder.path().join("other.toml");
+    std::fs::write(folder.path().join("grid.obj"), grid(400)).unwrap();
+    let text = SCENE.replace("shape = \"plane\"\nsize = [4, 4]", "obj = \"grid.obj\"");
+    std::fs::write(&other, text.replace("[render]", "[render]\nshadows = true")).unwrap();
+    // In the middle half of the window, at its top; the rows below are the picture's.
+    let bar = |open: &Open| {
+        let screen = open.display.corner([320, 240]);
+        let done = |pixel: &&[u8; 3]| pixel.iter().zip([200, 160, 80]).all(|(a, b)| a.abs_diff(b) <= 1);
+        assert!(screen[320 * 120..] == first[320 * 120..], "the picture below");
+        screen.iter().filter(done).count() > 50
+    };
+    open.client.drop_file(open.window, &other);
+    wait_until("the bar", || bar(&open));
+    open.client.point([100, 28]);
+    open.client.button(1, true);
+    open.client.button(1, false);
+    open.shows("the picture", LARGE, &first);
+    open.client.drop_file(open.window, &other);
+    wait_until("the bar again", || bar(&open));
+    open.client.tap(ESCAPE);
+    open.shows("the picture once more", LARGE, &first);
+    open.ends_well();
+}
+
+/// A scene with an error is not shown: what is wrong is said over the picture, until another is there.
+#[test]
+fn a_scene_that_is_refused_is_said_over_the_picture() {
+    const LARGE: [u32; 2] = [320, 240];
+    let folder = tempfile::tempdir().unwrap();
+    let path = scene(folder.path());
+    let first = rendered(&path, LARGE);
+    let mut open = Open::new(&path, LARGE, &first);
+    let broken = folder.path().join("broken.toml");
+    std::fs::write(&broken, SCENE.replace("plastic", "plastik")).unwrap();
+    open.client.drop_file(open.window, &broken);
+    let screen = |open: &Open| open.display.corner([320, 240]);
+    wait_until("the message", || screen(&open)[..320 * 120] != first[..320 * 120]);
+    assert!(screen(&open)[320 * 200..] == first[320 * 200..], "the picture below");
+    open.client.drop_file(open.window, &path);
+    open.shows("the picture", LARGE, &first);
+    let output = open.close();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stderr(&output).contains("broken.toml:"), "{}", stderr(&output));
 }
 
 #[test]

@@ -67,6 +67,7 @@ const ESCAPE: u8 = 9;
 const TWO: u8 = 11;
 const W: u8 = 25;
 const R: u8 = 27;
+const O: u8 = 32;
 const P: u8 = 33;
 const D: u8 = 40;
 const L: u8 = 46;
@@ -144,6 +145,14 @@ impl View {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.id())).ok()?;
         let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
         line.trim().strip_suffix(" kB")?.parse().ok()
+    }
+
+    /// Processor time so far, hundredths of a second.
+    fn ticks(&self) -> u64 {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.id())).unwrap();
+        // After the name, which may hold anything: state is the third field, user and system time the 14th and 15th.
+        let fields: Vec<&str> = stat.rsplit_once(") ").unwrap().1.split(' ').collect();
+        [11, 12].iter().map(|&index| fields[index].parse::<u64>().unwrap()).sum()
     }
 
     fn id(&self) -> u32 {

@@ -1,14 +1,13 @@
 //! What is drawn over the picture, and in its place: panels, debug views, comparisons, and shaders that change.
 
 use super::display::Display;
-use super::{ESCAPE, Open, SCENE, View, amas, rendered, scene, stderr, wait_until};
+use super::{ESCAPE, O, Open, SCENE, View, amas, rendered, scene, stderr, wait_until};
 use std::path::Path;
 
 const SIZE: [u32; 2] = [320, 240];
 
 const I: u8 = 31;
 const G: u8 = 42;
-const O: u8 = 32;
 const X: u8 = 53;
 const B: u8 = 56;
 const F1: u8 = 67;

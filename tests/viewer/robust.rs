@@ -1,7 +1,7 @@
 //! What happens to windows: sizes, places, signals, a long run.
 
 use super::display::Display;
-use super::{SCENE, View, amas, rendered, scene, stderr, wait_until};
+use super::{O, SCENE, View, amas, rendered, scene, stderr, wait_until};
 use std::time::Duration;
 
 /// Numbers that look random and are the same on every run (Knuth's MMIX generator, upper bits).
@@ -135,6 +135,81 @@ fn a_destroyed_window_ends_the_program() {
     let mut client = display.connect();
     let window = client.window_of_size([96, 64]).unwrap();
     client.destroy(window);
+    view.ends_well();
+}
+
+/// Lights that move, so that pictures follow one another without a pause.
+fn moving(folder: &std::path::Path) -> std::path::PathBuf {
+    let path = folder.join("moving.toml");
+    let lights = "[[light]]\ntype = \"points\"\ngenerate = { count = 500, seed = 1, min = [-2, 0.1, -2], max = [2, 1, 2], intensity = [0.1, 0.2], range = 0.5 }\nanimate = { type = \"drift\", speed = 0.5, seed = 1 }\n";
+    std::fs::write(&path, format!("{SCENE}{lights}")).unwrap();
+    path
+}
+
+/// At any moment: before the first picture, while pictures follow one another, with and without panels. The driver may know
+/// before the window does, and fail to draw.
+#[test]
+fn a_window_destroyed_while_it_is_drawn_ends_the_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = moving(folder.path());
+    let display = Display::start();
+    let mut client = display.connect();
+    let mut numbers = Numbers(7);
+    for kill in 0..30 {
+        let plain = kill % 5 != 0;
+        let arguments = if kill % 2 == 0 { &["--no-vsync"][..] } else { &[] };
+        let view = match plain {
+            true => View::open_plain(&display, &scene, arguments),
+            false => View::open(&display, &scene, arguments),
+        };
+        let mut window = None;
+        wait_until("the window", || {
+            window = client.window_of_size([96, 64]);
+            window.is_some()
+        });
+        let window = window.unwrap();
+        if kill % 3 != 0 {
+            wait_until("the picture", || ![[0; 3], [24; 3]].contains(&display.corner([1, 1])[0]));
+            client.focus(window);
+        }
+        if kill % 3 == 2 {
+            client.tap(O);
+        }
+        std::thread::sleep(Duration::from_millis(u64::from(numbers.below(300))));
+        client.destroy(window);
+        let output = view.output();
+        assert_eq!(output.status.code(), Some(0), "kill {kill}: {}", stderr(&output));
+        assert_eq!(stderr(&output), "", "kill {kill}");
+        wait_until("an empty screen", || client.window_of_size([96, 64]).is_none());
+    }
+}
+
+/// Behind another window nothing is drawn, though the scene moves; once it is seen again, it goes on.
+#[test]
+fn a_covered_window_rests() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = moving(folder.path());
+    let display = Display::start();
+    let view = View::open(&display, &scene, &[]);
+    let picture = || display.corner([96, 64]);
+    wait_until("the picture", || ![[0; 3], [24; 3]].contains(&display.corner([1, 1])[0]));
+    let mut client = display.connect();
+    let moves = |what: &str| {
+        let before = picture();
+        wait_until(what, || picture() != before);
+    };
+    moves("a picture that moves");
+    let cover = client.cover([320, 240]);
+    // What was under way is done by then.
+    std::thread::sleep(Duration::from_millis(500));
+    let before = view.ticks();
+    std::thread::sleep(Duration::from_secs(1));
+    let spent = view.ticks() - before;
+    println!("{spent} ticks of 100 while covered");
+    assert!(spent <= 3, "{spent} ticks of 100");
+    client.destroy(cover);
+    moves("a picture that moves again");
+    view.signal("TERM");
     view.ends_well();
 }
 

@@ -95,10 +95,10 @@ impl Loading {
         self.worker
     }
 
-    /// From 0 to 1.
+    /// From 0 to 1: reading is one half, the device the other, which takes longest where no pipeline is in the driver's cache.
     pub(super) fn fraction(&self) -> f64 {
-        let length = self.progress.length().unwrap_or(DEVICE_STEPS).max(1);
-        self.progress.position() as f64 / length as f64
+        let files = self.progress.length().unwrap_or(DEVICE_STEPS).saturating_sub(DEVICE_STEPS);
+        share(self.progress.position(), files)
     }
 
     /// The camera to start from, of a scene that was read.
@@ -125,6 +125,13 @@ impl Loading {
     }
 }
 
+/// How far `done` steps are, of which the first are `files`.
+fn share(done: u64, files: u64) -> f64 {
+    let read = if files > 0 { done.min(files) as f64 / files as f64 } else { 0.0 };
+    let device = done.saturating_sub(files) as f64 / DEVICE_STEPS as f64;
+    0.5 * (read + device.min(1.0))
+}
+
 fn build(
     device: &Arc<Device>,
     scene: Scene,
@@ -145,4 +152,15 @@ fn build(
     device.keep_pipelines();
     going_on()?;
     Ok(picture)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reading_is_half_of_loading() {
+        assert_eq!(share(0, 0), 0.0);
+        assert_eq!([0, 2, 4, 5, 6].map(|done| share(done, 4)), [0.0, 0.25, 0.5, 0.75, 1.0]);
+    }
 }

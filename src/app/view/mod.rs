@@ -6,6 +6,7 @@
 
 mod capture;
 mod display;
+mod events;
 mod fly;
 mod folders;
 mod gathering;
@@ -41,18 +42,14 @@ use pilot::Pilot;
 use recent::Recent;
 use stage::Stage;
 use startup::Startup;
+use std::sync::Arc;
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use waiting::Waiting;
 use watch::Watch;
-use winit::application::ApplicationHandler;
-use winit::event::{StartCause, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
-use winit::window::WindowId;
+use winit::event_loop::{EventLoop, EventLoopProxy};
+use winit::window::Window;
 use worker::Worker;
-
-/// Time between two looks at how far loading is.
-const LOOK: Duration = Duration::from_millis(50);
 
 /// What other threads tell the window's.
 enum Event {
@@ -88,11 +85,13 @@ fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
         proxy,
         startup,
         current: options.scene.clone(),
+        window: None,
         stage: None,
         picture: None,
         pilot: None,
         waiting: Waiting::default(),
         loading: Some(loading),
+        look: None,
         ticket: 0,
         worker: None,
         abandoned: Vec::new(),
@@ -108,6 +107,7 @@ fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
         remaining: options.frames,
         closing: false,
         outcome: Ok(()),
+        end: None,
     };
     viewer.gui.compare_with(options.compare.clone());
     viewer.gui.remember(Recent::load(folders::state()));
@@ -125,12 +125,16 @@ struct Viewer<'a> {
     /// The scene in the window, or that is to be the first there.
     current: SceneOptions,
     watch: Watch,
+    /// Held to the end: if it is destroyed, it was not from here.
+    window: Option<Arc<Window>>,
     stage: Option<Stage>,
     /// `None` until the first scene is loaded.
     picture: Option<Box<Picture>>,
     pilot: Option<Pilot>,
     waiting: Waiting,
     loading: Option<Loading>,
+    /// When to see next how far it is.
+    look: Option<Instant>,
     /// Of the last job.
     ticket: u64,
     /// Of the last job that has come to its end.
@@ -154,6 +158,8 @@ struct Viewer<'a> {
     remaining: Option<u32>,
     closing: bool,
     outcome: Result<()>,
+    /// When an outcome that is an error closes the window.
+    end: Option<Instant>,
 }
 
 impl Viewer<'_> {
@@ -200,6 +206,7 @@ impl Viewer<'_> {
             }
             return Ok(());
         }
+        self.gui.follow(self.loading.as_ref());
         let (image, change) = self.gui.draw(stage, picture, pilot.camera(), fresh)?;
         let shown = stage.show(&image)?;
         picture.change(change, pilot.camera())?;
@@ -217,6 +224,10 @@ impl Viewer<'_> {
         let unfinished = !picture.is_complete() || self.gui.is_behind();
         if moves || !shown || change > Change::Nothing || unfinished || self.remaining.is_some() {
             stage.window.request_redraw();
+        }
+        if self.gui.cancelled() {
+            self.abandon();
+            self.redraw();
         }
         if let Some(scene) = self.gui.chosen() {
             self.dropped(scene);
@@ -265,16 +276,6 @@ impl Viewer<'_> {
         self.redraw();
     }
 
-    /// Ends the loop where something failed.
-    fn settle(&mut self, event_loop: &ActiveEventLoop, result: Result<()>) {
-        if result.is_err() && self.outcome.is_ok() {
-            self.outcome = result;
-        }
-        if self.closing || self.outcome.is_err() || self.remaining == Some(0) {
-            event_loop.exit();
-        }
-    }
-
     /// After the loop: how it went.
     fn close(mut self) -> Result<()> {
         // What is under way on the device may take seconds to end.
@@ -294,101 +295,5 @@ impl Viewer<'_> {
         }
         self.outcome?;
         device.map_or(Ok(()), |device| device.require_silence())
-    }
-}
-
-impl ApplicationHandler<Event> for Viewer<'_> {
-    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.stage.is_none() {
-            let opened = Stage::open(event_loop, self.options, self.size);
-            self.startup.reached("device");
-            let result = opened.map(|stage| self.stage = Some(stage));
-            self.settle(event_loop, result);
-        }
-        self.redraw();
-    }
-
-    fn suspended(&mut self, _: &ActiveEventLoop) {
-        if let Some(stage) = &mut self.stage {
-            stage.suspend();
-        }
-    }
-
-    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
-        if matches!(cause, StartCause::ResumeTimeReached { .. }) {
-            self.gui.woken();
-            self.redraw();
-        }
-    }
-
-    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Event) {
-        let result = match event {
-            Event::Quit => {
-                self.closing = true;
-                Ok(())
-            }
-            // What waits for them goes on before the loop sleeps again.
-            Event::Lights => Ok(()),
-            Event::Loaded(ticket, progress) => self.progress(ticket, progress),
-            Event::Shaders(shaders) => {
-                self.reload_shaders(shaders);
-                Ok(())
-            }
-            Event::Changed => {
-                self.reload();
-                Ok(())
-            }
-        };
-        self.settle(event_loop, result);
-    }
-
-    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
-        if self.outcome.is_err() || event_loop.exiting() {
-            return;
-        }
-        let result = match event {
-            // Destroyed: by another program, without asking.
-            WindowEvent::CloseRequested | WindowEvent::Destroyed => {
-                self.closing = true;
-                Ok(())
-            }
-            WindowEvent::RedrawRequested if self.hidden => Ok(()),
-            WindowEvent::RedrawRequested => self.draw(),
-            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
-                if let Some(stage) = &mut self.stage {
-                    stage.outdate();
-                }
-                self.redraw();
-                Ok(())
-            }
-            WindowEvent::Occluded(hidden) => {
-                self.hidden = hidden;
-                self.redraw();
-                Ok(())
-            }
-            WindowEvent::DroppedFile(path) => {
-                self.dropped(path);
-                Ok(())
-            }
-            event => self.input(event),
-        };
-        self.settle(event_loop, result);
-    }
-
-    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        if self.outcome.is_err() || event_loop.exiting() {
-            return;
-        }
-        let gathered = self.gather();
-        let more = matches!(gathered, Ok(true));
-        self.settle(event_loop, gathered.map(|_| ()));
-        if more {
-            event_loop.set_control_flow(ControlFlow::Poll);
-            return;
-        }
-        self.entitle();
-        let look = self.loading.as_ref().map(|_| Instant::now() + LOOK);
-        let next = look.into_iter().chain(self.gui.due()).min();
-        event_loop.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 }

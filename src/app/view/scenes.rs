@@ -31,17 +31,23 @@ impl Viewer<'_> {
         self.redraw();
         match result {
             Err(error) if self.picture.is_some() => {
-                complain(&error);
-                self.gui.complain(Some(error.to_string()));
+                self.refuse(&error);
                 if let Error::Input { file, .. } = &error {
                     // It may be one that the scene did not have before.
                     self.watch.also(file);
                 }
-                self.notice = Some("not loaded, the terminal says why");
                 Ok(())
             }
             result => result,
         }
+    }
+
+    /// Says why a scene is not shown.
+    fn refuse(&mut self, error: &Error) {
+        complain(error);
+        self.gui.complain(error.to_string());
+        self.notice = Some("not loaded");
+        self.redraw();
     }
 
     /// The files are read: on to the device.
@@ -55,8 +61,7 @@ impl Viewer<'_> {
             return Ok(());
         };
         self.startup.reached("scene read");
-        let size = stage.window.inner_size();
-        let shape = Shape { size: [size.width.max(1), size.height.max(1)], encoding: stage.encoding() };
+        let shape = Shape { size: stage.size().map(|side| side.max(1)), encoding: stage.encoding() };
         let camera = match (&loading.aim, &self.pilot) {
             (Aim::Again, Some(pilot)) => pilot.camera().clone(),
             _ => scene.cameras[home].clone(),
@@ -105,8 +110,7 @@ impl Viewer<'_> {
     /// A file was dropped on the window, or chosen among those that were shown before.
     pub(super) fn dropped(&mut self, path: PathBuf) {
         if !["toml", "obj"].contains(&extension(&path).as_str()) {
-            complain(Error::input(path, None, "this is no scene", "drop a scene (.toml) or an OBJ file"));
-            self.notice = Some("no scene was dropped");
+            self.refuse(&Error::input(path, None, "this is no scene", "drop a scene (.toml) or an OBJ file"));
             return;
         }
         let options = SceneOptions { scene: Some(path), ..self.current.clone() };

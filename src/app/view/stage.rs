@@ -16,26 +16,33 @@ pub(super) struct Stage {
     swapchain: Swapchain,
     pub(super) device: Arc<Device>,
     pub(super) window: Arc<Window>,
+    /// Of the window, pixels, as its events say: asked about a window that is gone, winit panics on X11.
+    size: [u32; 2],
     /// Whether the images fit the window.
     fits: bool,
     vsync: bool,
     title: String,
 }
 
+/// Opens the window.
+pub(super) fn window(event_loop: &ActiveEventLoop, [width, height]: [u32; 2]) -> Result<Arc<Window>> {
+    let attributes =
+        Window::default_attributes().with_title("amas").with_inner_size(PhysicalSize::new(width, height));
+    let window = event_loop.create_window(attributes).map_err(|error| Error::NoDevice {
+        cause: format!("the window cannot be opened ({error})"),
+        remedy: "check the display".into(),
+    })?;
+    Ok(Arc::new(window))
+}
+
 impl Stage {
-    /// Opens the window, and the device that presents to it.
+    /// Opens the device that presents to a window just opened.
     pub(super) fn open(
         event_loop: &ActiveEventLoop,
         options: &ViewOptions,
-        [width, height]: [u32; 2],
+        window: Arc<Window>,
     ) -> Result<Self> {
-        let attributes =
-            Window::default_attributes().with_title("amas").with_inner_size(PhysicalSize::new(width, height));
-        let window = event_loop.create_window(attributes).map_err(|error| Error::NoDevice {
-            cause: format!("the window cannot be opened ({error})"),
-            remedy: "check the display".into(),
-        })?;
-        let window = Arc::new(window);
+        let size = window.inner_size().into();
         let wanted = WindowOptions { high: options.hdr, cache: folders::cache() };
         let asked = options.device.asked();
         let (device, mut swapchain) =
@@ -44,12 +51,26 @@ impl Stage {
             complain("warning: the display offers no high dynamic range; the window shows sRGB");
         }
         swapchain.set_vsync(!options.no_vsync);
-        Ok(Self { swapchain, device, window, fits: false, vsync: !options.no_vsync, title: String::new() })
+        Ok(Self {
+            swapchain,
+            device,
+            size,
+            window,
+            fits: false,
+            vsync: !options.no_vsync,
+            title: String::new(),
+        })
     }
 
-    /// Has the window's images made anew before the next picture.
-    pub(super) fn outdate(&mut self) {
+    /// The window has that size now: its images are made anew before the next picture.
+    pub(super) fn resized(&mut self, size: PhysicalSize<u32>) {
+        self.size = size.into();
         self.fits = false;
+    }
+
+    /// Of the window, pixels; 0 where it has no area.
+    pub(super) fn size(&self) -> [u32; 2] {
+        self.size
     }
 
     /// Lets the window's images go until it is resumed.
@@ -74,7 +95,7 @@ impl Stage {
     /// Makes the images fit the window, and says how large they are; `None` where it has no area.
     pub(super) fn fit(&mut self) -> Result<Option<[u32; 2]>> {
         if !self.fits {
-            self.fits = self.swapchain.resize(self.window.inner_size().into())?;
+            self.fits = self.swapchain.resize(self.size)?;
         }
         Ok(self.fits.then(|| self.swapchain.size()))
     }
@@ -104,15 +125,15 @@ impl Stage {
 
     /// Asks for a window of that size; what comes of it is up to the display.
     pub(super) fn ask_size(&mut self, [width, height]: [u32; 2]) {
-        if self.window.request_inner_size(PhysicalSize::new(width, height)).is_some() {
+        if let Some(size) = self.window.request_inner_size(PhysicalSize::new(width, height)) {
             // Granted at once, and so without an event: on Wayland a window has the size that it gives itself.
-            self.fits = false;
+            self.resized(size);
             self.window.request_redraw();
         }
     }
 
     /// Pixels of the window's height, at least 1: what drags are measured by.
     pub(super) fn height(&self) -> f64 {
-        f64::from(self.window.inner_size().height.max(1))
+        f64::from(self.size[1].max(1))
     }
 }

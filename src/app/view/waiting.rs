@@ -6,8 +6,12 @@ use crate::scene::settings::Encoding;
 use crate::targets::ldr_format;
 use std::sync::Arc;
 
-/// sRGB: behind the bar, its part that is done, and its rest.
-const COLORS: [[u8; 4]; 3] = [[24, 24, 24, 255], [200, 160, 80, 255], [56, 56, 56, 255]];
+/// Of the part of a bar that is done, sRGB.
+pub(super) const DONE: [u8; 4] = [200, 160, 80, 255];
+/// Of its rest.
+const REST: [u8; 4] = [56, 56, 56, 255];
+/// Behind it.
+const GROUND: [u8; 4] = [24, 24, 24, 255];
 
 /// A bar that shows how far loading is.
 #[derive(Default)]
@@ -60,9 +64,9 @@ fn draw(device: &Arc<Device>, size: [u32; 2], done: u32) -> Result<Arc<Image>> {
     let thickness = (height / 60).max(2);
     let rows = (height / 2).saturating_sub(thickness / 2);
     let color = |x: u32, y: u32| match y.wrapping_sub(rows) < thickness && (from..to).contains(&x) {
-        false => COLORS[0],
-        true if x - from < done => COLORS[1],
-        true => COLORS[2],
+        false => GROUND,
+        true if x - from < done => DONE,
+        true => REST,
     };
     let texels: Vec<[u8; 4]> =
         (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| color(x, y)).collect();

@@ -67,22 +67,134 @@ impl Key {
     }
 }
 
+/// A pipeline, as long as somebody holds it; locked while it is compiled.
+type Slot = Arc<Mutex<Weak<Raw>>>;
+
 /// The pipelines that somebody holds.
 #[derive(Default)]
-pub(in super::super) struct Compiled(Mutex<HashMap<Key, Weak<Raw>>>);
+pub(in super::super) struct Compiled(Mutex<HashMap<Key, Slot>>);
 
 impl Compiled {
-    /// The pipeline of that key; compiled, where there is none.
+    /// The pipeline of that key; compiled, where there is none. Who asks for the same one meanwhile waits for it, who asks for
+    /// another does not.
     pub(super) fn get(&self, key: Key, compile: impl FnOnce() -> Result<Raw>) -> Result<Arc<Raw>> {
-        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(raw) = known().get(&key).and_then(Weak::upgrade) {
+        let slot = self.slot(key);
+        let mut held = slot.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(raw) = held.upgrade() {
             return Ok(raw);
         }
-        // Unlocked: another thread may compile, too. Where it is the same pipeline, each has its own.
         let raw = Arc::new(compile()?);
-        let mut known = known();
-        known.retain(|_, raw| raw.strong_count() > 0);
-        known.insert(key, Arc::downgrade(&raw));
+        *held = Arc::downgrade(&raw);
         Ok(raw)
+    }
+
+    /// That of a key. Others whose pipelines have gone go, too, unless a thread has them at hand.
+    fn slot(&self, key: Key) -> Slot {
+        let gone = |slot: &Slot| slot.lock().unwrap_or_else(PoisonError::into_inner).strong_count() == 0;
+        let mut slots = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        slots.retain(|_, slot| Arc::strong_count(slot) > 1 || !gone(slot));
+        slots.entry(key).or_default().clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::{ComputePipeline, Options};
+    use super::super::compile_compute;
+    use super::*;
+    use crate::gpu::shaders::PROBE_BSDF_COMP;
+    use crate::shared;
+    use std::sync::Barrier;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    fn open() -> (Arc<Device>, Arc<PipelineLayout>) {
+        let options = Options { device: Some("llvmpipe".into()), validate: true };
+        let device = Device::open(&options).unwrap();
+        let layout = PipelineLayout::new(&device, &[shared::probe::BINDINGS, shared::scene::BINDINGS]);
+        (device.clone(), Arc::new(layout.unwrap()))
+    }
+
+    /// Of one of the BSDFs.
+    fn of(model: u32) -> Specialization {
+        Specialization::default().with(shared::SPEC_MODEL, model)
+    }
+
+    fn known(device: &Device) -> usize {
+        device.compiled.0.lock().unwrap().len()
+    }
+
+    #[test]
+    fn equal_pipelines_are_one_until_nobody_holds_it() {
+        let (device, layout) = open();
+        let make = |model| ComputePipeline::new(&device, &layout, PROBE_BSDF_COMP, &of(model)).unwrap();
+        let (first, second, other) = (make(0), make(0), make(1));
+        assert!(Arc::ptr_eq(&first.raw, &second.raw), "the same, compiled twice");
+        assert!(!Arc::ptr_eq(&first.raw, &other.raw), "another specialisation");
+        // Layouts of the same tables are compatible.
+        let tables = [shared::probe::BINDINGS, shared::scene::BINDINGS];
+        let again = Arc::new(PipelineLayout::new(&device, &tables).unwrap());
+        let third = ComputePipeline::new(&device, &again, PROBE_BSDF_COMP, &of(0)).unwrap();
+        assert!(Arc::ptr_eq(&first.raw, &third.raw), "the same under a layout of the same tables");
+        // Other words under the same name: what hot reload does.
+        let words = PROBE_BSDF_COMP.words();
+        device.replace_shaders([(PROBE_BSDF_COMP.name, words)].into());
+        assert!(!Arc::ptr_eq(&first.raw, &make(0).raw), "a shader that has changed");
+        device.replace_shaders(HashMap::new());
+        assert!(Arc::ptr_eq(&first.raw, &make(0).raw), "the shader as it was");
+
+        let held = Arc::downgrade(&first.raw);
+        drop((first, second));
+        assert_eq!(held.strong_count(), 1, "the third has it still");
+        drop(third);
+        assert!(held.upgrade().is_none(), "nobody holds it, and it is there");
+        let remade = make(0);
+        assert_eq!(known(&device), 2, "those that are held, and no trace of others");
+        drop((remade, other, layout, again));
+        device.require_silence().unwrap();
+    }
+
+    #[test]
+    fn threads_that_ask_at_once_compile_once() {
+        const THREADS: usize = 4;
+        let (device, layout) = open();
+        let (calls, start) = (AtomicUsize::new(0), Barrier::new(THREADS));
+        let get = || {
+            let key = Key::new(&device, &[PROBE_BSDF_COMP], &of(0), &layout, None);
+            start.wait();
+            device.compiled.get(key, || {
+                calls.fetch_add(1, Ordering::Relaxed);
+                // Long enough for the others to ask.
+                std::thread::sleep(Duration::from_millis(100));
+                compile_compute(&device, &layout, PROBE_BSDF_COMP, &of(0))
+            })
+        };
+        let made: Vec<_> = std::thread::scope(|scope| {
+            let threads: Vec<_> = (0..THREADS).map(|_| scope.spawn(get)).collect();
+            threads.into_iter().map(|thread| thread.join().unwrap().unwrap()).collect()
+        });
+        assert_eq!(calls.into_inner(), 1);
+        assert!(made.iter().all(|raw| Arc::ptr_eq(raw, &made[0])));
+    }
+
+    /// One that is being compiled keeps nobody from another; one that fails is tried again.
+    #[test]
+    fn pipelines_do_not_wait_for_one_another() {
+        let (device, layout) = open();
+        let key = |model| Key::new(&device, &[PROBE_BSDF_COMP], &of(model), &layout, None);
+        let compile = |model| compile_compute(&device, &layout, PROBE_BSDF_COMP, &of(model));
+        let failed = device.compiled.get(key(0), || Err(crate::error::Error::usage("no", "none")));
+        assert!(failed.is_err());
+        let (done, waits) = channel();
+        let first = device.compiled.get(key(0), || {
+            std::thread::scope(|scope| {
+                scope.spawn(|| done.send(device.compiled.get(key(1), || compile(1)).is_ok()));
+                let other = waits.recv_timeout(Duration::from_secs(30));
+                assert_eq!(other, Ok(true), "waited in vain for the other pipeline");
+            });
+            compile(0)
+        });
+        assert!(first.is_ok());
     }
 }

@@ -67,21 +67,28 @@ impl Figures {
         let cuts = format!("{} in all, {} at most", counters.cut_entries, counters.cut_longest);
         let error = self.error.map_or("once it rests".into(), |error| format!("{:.3} %", 100.0 * error));
         let rows = [
-            ("samples", format!("{} of {}", self.samples[0], self.samples[1])),
-            ("estimated error", error),
-            ("lights", format!("{} points, {} areas", self.point_lights, self.area_lights)),
-            ("clusters", format!("{} of {x} × {y} × {z}", counters.occupied)),
-            ("lists", lists),
-            ("cuts", cuts),
-            ("folded", folded),
-            ("picture", format!("{width} × {height}")),
-            ("memory", format!("{:.0} MB of the device at most", self.memory)),
-            ("device", self.device.clone()),
-            ("driver", self.driver.clone()),
+            (
+                "samples",
+                "so far, and of the picture at rest",
+                format!("{} of {}", self.samples[0], self.samples[1]),
+            ),
+            ("estimated error", "of folds and cuts, relative", error),
+            ("lights", "of the scene", format!("{} points, {} areas", self.point_lights, self.area_lights)),
+            ("clusters", "that hold a surface", format!("{} of {x} × {y} × {z}", counters.occupied)),
+            ("lists", "point lights with a range, cluster by cluster", lists),
+            ("cuts", "nodes of lights without a range, cluster by cluster", cuts),
+            ("folded", "lights beyond the longest list", folded),
+            ("picture", "pixels", format!("{width} × {height}")),
+            ("memory", "of amas", format!("{:.0} MB of the device at most", self.memory)),
+            ("device", "", self.device.clone()),
+            ("driver", "", self.driver.clone()),
         ];
         egui::Grid::new("counts").num_columns(2).striped(true).show(ui, |ui| {
-            for (name, value) in rows {
-                ui.weak(name);
+            for (name, hint, value) in rows {
+                let name = ui.weak(name);
+                if !hint.is_empty() {
+                    name.on_hover_text(hint);
+                }
                 ui.label(value);
                 ui.end_row();
             }

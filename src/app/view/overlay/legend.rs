@@ -21,10 +21,16 @@ pub(super) fn show(context: &Context, views: &Views, compare: &mut Compare, size
     }
     Area::new(Id::unique("legend")).anchor(Align2::CENTER_BOTTOM, [0.0, -8.0]).show(context, |ui| {
         Frame::window(ui.style()).show(ui, |ui| {
+            // An area is as wide as it was before, and would wrap what is longer.
+            ui.set_max_width(context.content_rect().width() - 24.0);
             if let Some(view) = views.shown() {
                 ui.strong(VIEWS[view].name);
-                if let Some([low, high]) = views.range() {
-                    bar(ui, &number(low), &number(high));
+                match views.range() {
+                    Some([low, high]) if low == high => {
+                        ui.label(format!("{} everywhere", number(low)));
+                    }
+                    Some([low, high]) => bar(ui, &number(low), &number(high)),
+                    None => {}
                 }
             }
             if compare.mode == Mode::Split {
@@ -41,7 +47,9 @@ pub(super) fn show(context: &Context, views: &Views, compare: &mut Compare, size
 fn bar(ui: &mut Ui, low: &str, high: &str) {
     ui.horizontal(|ui| {
         ui.label(low);
-        let (rect, _) = ui.allocate_exact_size(BAR.into(), Sense::hover());
+        // The numbers beside it take some 40 each.
+        let width = BAR[0].min(ui.ctx().content_rect().width() - 120.0).max(40.0);
+        let (rect, _) = ui.allocate_exact_size([width, BAR[1]].into(), Sense::hover());
         let steps: Vec<_> = (0..=20).map(|step| Some(step as f32)).collect();
         let mut mesh = Mesh::default();
         for (step, [r, g, b]) in heat(&steps, [0.0, 20.0]).into_iter().enumerate() {

@@ -11,38 +11,39 @@ mod history;
 mod inspect;
 mod keys;
 mod legend;
+mod loading;
 mod paint;
+mod panels;
 mod picked;
 mod scenes;
 mod settings;
+mod tools;
 mod truth;
 mod views;
 
 pub(super) use settings::Change;
 
-use super::gathering::Status;
 use super::input::number;
+use super::loading::Loading;
 use super::picture::Picture;
 use super::recent::Recent;
 use super::stage::Stage;
 use crate::error::Result;
 use crate::frame::Timings;
 use crate::gpu::Image;
-use crate::passes::overlay::{Ground, Overlay};
-use crate::scene::settings::Encoding;
+use crate::passes::overlay::Ground;
 use crate::scene::{Camera, Scene};
 use compare::{Beside, Compare, Mode};
 use counts::Figures;
-use egui::style::ScrollStyle;
-use egui::{Color32, ComboBox, Context, FullOutput, LayerId, ScrollArea, Ui, ViewportId, pos2};
+use egui::{Color32, ViewportId};
 use history::History;
 use inspect::Inspector;
-use paint::Textures;
-use picked::project;
+use loading::Job;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use views::{VIEWS, Views};
+use tools::Tools;
+use views::Views;
 use winit::event::{ElementState, WindowEvent};
 use winit::keyboard::KeyCode;
 use winit::window::Window;
@@ -61,13 +62,6 @@ const PASS_COLORS: [Color32; 8] = [
 
 /// Time between two looks at the reference.
 const LOOK: Duration = Duration::from_millis(250);
-
-/// On hot reload of shaders.
-const WATCHED: &str = "Changes in glsl/ are compiled and shown at once.";
-const NOT_WATCHED: &str = "The checkout that amas was built from is not here: shaders stay as they are.";
-
-/// Width of the panels, points.
-const WIDTH: f32 = 280.0;
 
 /// The overlay's state; what it draws with is made when it is first shown.
 #[derive(Default)]
@@ -94,6 +88,10 @@ pub(super) struct Gui {
     trouble: Option<String>,
     /// Why the scene that was loaded last is not shown.
     refused: Option<String>,
+    /// The scene that is being loaded.
+    job: Option<Job>,
+    /// The user does not want it.
+    cancelled: bool,
     /// When egui wants to be drawn again though nothing happened.
     due: Option<Instant>,
 }
@@ -105,20 +103,12 @@ pub(super) enum Fresh {
     Gathered(Timings),
 }
 
-/// What an overlay is drawn with.
-struct Tools {
-    input: egui_winit::State,
-    textures: Textures,
-    pass: Overlay,
-    /// Of the pictures that it is drawn over.
-    encoding: Encoding,
-}
-
 impl Gui {
     /// Whether anything is to be drawn over the picture.
     fn is_shown(&self) -> bool {
-        let open = self.panels || self.keys || self.scenes || self.trouble.is_some();
-        open || self.shows_view() || self.compare.mode != Mode::Off
+        let open = self.panels || self.keys || self.scenes;
+        let told = self.trouble.is_some() || self.refused.is_some() || self.job.is_some();
+        open || told || self.shows_view() || self.compare.mode != Mode::Off
     }
 
     /// Whether a picture at rest is to be drawn once more, with its error.
@@ -139,6 +129,16 @@ impl Gui {
     /// The scenes that were shown before.
     pub(super) fn remember(&mut self, recent: Recent) {
         self.recent = recent;
+    }
+
+    /// What is being loaded, if anything is.
+    pub(super) fn follow(&mut self, loading: Option<&Loading>) {
+        self.job = loading.and_then(Job::of);
+    }
+
+    /// Whether the user does not want what is being loaded, once.
+    pub(super) fn cancelled(&mut self) -> bool {
+        std::mem::take(&mut self.cancelled)
     }
 
     /// The scene that the user wants next, once.
@@ -173,9 +173,9 @@ impl Gui {
         self.trouble = made.err();
     }
 
-    /// Why a scene is not shown; `None` once one is.
-    pub(super) fn complain(&mut self, trouble: Option<String>) {
-        self.refused = trouble;
+    /// Why a scene is not shown.
+    pub(super) fn complain(&mut self, trouble: String) {
+        self.refused = Some(trouble);
     }
 
     /// Picks what is under a pixel, and opens the panels.
@@ -278,7 +278,7 @@ impl Gui {
         let mut change = Change::Nothing;
         let size = picture.frame.settings().size;
         let status = picture.status();
-        let output = tools.run(&stage.window, |context| {
+        let output = tools.run(&stage.window, size, |context| {
             if self.panels {
                 change = change.max(self.panels(context, &mut picture.scene, status));
                 self.mark(context, &picture.scene, camera, size);
@@ -291,12 +291,10 @@ impl Gui {
             {
                 self.chosen = Some(scene);
             }
-            if let Some(trouble) = &self.trouble {
-                complain(context, "Shaders", trouble);
+            if let Some(job) = &self.job {
+                self.cancelled |= job.show(context);
             }
-            if let Some(refused) = self.refused.as_ref().filter(|_| self.panels) {
-                complain(context, "Scene", refused);
-            }
+            self.complaints(context);
             legend::show(context, &self.views, &mut self.compare, size);
         });
         // Longer than a day means never.
@@ -336,111 +334,4 @@ impl Gui {
             self.compare.forget();
         }
     }
-
-    fn panels(&mut self, context: &Context, scene: &mut Arc<Scene>, status: Option<Status>) -> Change {
-        let mut change = Change::Nothing;
-        let window = egui::Window::new("amas").default_pos([8.0, 8.0]).default_width(WIDTH);
-        window.default_height(context.content_rect().height() - 64.0).show(context, |ui| {
-            ScrollArea::vertical().show(ui, |ui| {
-                section(ui, "Time", |ui| self.history.show(ui));
-                section(ui, "View", |ui| self.choose(ui));
-                if let Some(status) = status {
-                    section(ui, "Gathered light", |ui| gathered::show(ui, status));
-                }
-                if let Some(figures) = &self.figures {
-                    section(ui, "Counts", |ui| figures.show(ui));
-                }
-                section(ui, "Settings", |ui| change = settings::show(ui, scene));
-                section(ui, "Picked", |ui| change = change.max(self.inspector.show(ui, scene)));
-                section(ui, "Shaders", |ui| {
-                    ui.weak(if self.watched { WATCHED } else { NOT_WATCHED });
-                });
-                section(ui, "Save", |ui| self.inspector.save(ui, scene));
-            });
-        });
-        change
-    }
-
-    /// The debug views and comparisons, as the keys have them.
-    fn choose(&mut self, ui: &mut Ui) {
-        let mut shown = self.views.shown();
-        ComboBox::from_id_salt("view")
-            .selected_text(shown.map_or("picture", |view| VIEWS[view].name))
-            .show_ui(ui, |ui| {
-                ui.selectable_value(&mut shown, None, "picture");
-                for (index, view) in VIEWS.iter().enumerate() {
-                    ui.selectable_value(&mut shown, Some(index), view.name);
-                }
-            });
-        self.views.show(shown);
-        let mut mode = self.compare.mode;
-        ui.horizontal(|ui| {
-            for (name, value) in [("alone", Mode::Off), ("split", Mode::Split), ("error", Mode::Difference)] {
-                ui.radio_value(&mut mode, value, name);
-            }
-        });
-        while mode != self.compare.mode {
-            self.compare.next();
-        }
-    }
-
-    /// A ring around the light that is picked.
-    fn mark(&self, context: &Context, scene: &Scene, camera: &Camera, size: [u32; 2]) {
-        let place = self.inspector.picked.and_then(|picked| picked.place(scene));
-        let Some([x, y, _]) = place.and_then(|place| project(camera, size, place.as_dvec3())) else {
-            return;
-        };
-        let scale = context.pixels_per_point();
-        let painter = context.layer_painter(LayerId::background());
-        painter.circle_stroke(pos2(x as f32 / scale, y as f32 / scale), 8.0, (1.5, Color32::WHITE));
-        painter.circle_stroke(pos2(x as f32 / scale, y as f32 / scale), 9.5, (1.5, Color32::BLACK));
-    }
-}
-
-impl Tools {
-    fn new(stage: &Stage) -> Result<Self> {
-        let context = Context::default();
-        context.set_theme(egui::Theme::Dark);
-        context.all_styles_mut(|style| {
-            // What moves by itself would have the window drawn again and again.
-            style.animation_time = 0.0;
-            style.spacing.scroll = ScrollStyle::solid();
-        });
-        let scale = Some(stage.window.scale_factor() as f32);
-        let side = Some(stage.device.largest_image() as usize);
-        let input = egui_winit::State::new(context, ViewportId::ROOT, &stage.window, scale, None, side);
-        let encoding = stage.encoding();
-        let pass = Overlay::new(&stage.device, encoding)?;
-        Ok(Self { input, textures: Textures::default(), pass, encoding })
-    }
-
-    fn run(&mut self, window: &Window, mut show: impl FnMut(&Context)) -> FullOutput {
-        let input = self.input.take_egui_input(window);
-        let context = self.input.egui_ctx().clone();
-        let mut output = context.run_ui(input, |ui| show(ui.ctx()));
-        self.input.handle_platform_output(window, std::mem::take(&mut output.platform_output));
-        output
-    }
-
-    fn paint(&mut self, ground: &Ground<'_>, covered: bool, mut output: FullOutput) -> Result<Arc<Image>> {
-        self.textures.update(&mut output.textures_delta, &mut self.pass)?;
-        let scale = output.pixels_per_point;
-        let primitives = self.input.egui_ctx().tessellate(output.shapes, scale);
-        let drawing = paint::drawing(primitives, scale, ground.picture.size(), covered);
-        self.pass.draw(ground, &drawing)
-    }
-}
-
-fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
-    egui::CollapsingHeader::new(title).default_open(true).show(ui, contents);
-}
-
-/// A window on what went wrong.
-fn complain(context: &Context, title: &str, trouble: &str) {
-    let window = egui::Window::new(title).collapsible(false).default_pos([8.0, 8.0]);
-    window.show(context, |ui| {
-        ScrollArea::both().max_height(120.0).show(ui, |ui| {
-            ui.label(egui::RichText::new(trouble).monospace().color(Color32::LIGHT_RED));
-        });
-    });
 }
