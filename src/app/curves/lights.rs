@@ -177,7 +177,7 @@ fn render(frame: &mut Frame, scene: &Scene) -> Result<Timings> {
 
 fn tree_ms(scene: &Scene) -> f64 {
     let clock = ProcessTime::now();
-    let tree = LightTree::new(&scene.point_lights);
+    let tree = LightTree::new(&scene.point_lights, glam::Vec3::ZERO);
     let taken = clock.elapsed();
     drop(tree);
     taken.as_secs_f64() * 1e3
