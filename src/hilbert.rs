@@ -5,13 +5,13 @@
 //! 2. A stable partition by the first 12 bits leaves runs that a core's own cache holds; each is partitioned by as many
 //!    more bits as it has points for, and again where points crowd. An insertion from neighbour to neighbour does the rest.
 //!
-//! CPU ms of 2²⁰ points strewn evenly, on one thread of a busy Xeon: 34. Keys made one by one, and runs each sorted, took 56
-//! there and 21 on an idle EPYC, where a radix sort of all 30 bits and tables of two levels took 51, and Morton's keys as much
+//! CPU ms of 2²⁰ points strewn evenly, on one thread of a busy Xeon: 32, of which 5 are the system's for fresh memory. Keys
+//! made one by one, and runs each sorted, took 56 there and 21 on an idle EPYC, where a radix sort of all 30 bits and tables of two levels took 51, and Morton's keys as much
 //! as these within 2 %; boxes of 32 points in Morton's order have 2.7 times the volume (1.6 times with ranges as in
 //! `scenes/million.toml`).
 
 mod curve;
-mod sort;
+pub(crate) mod sort;
 
 use curve::Grid;
 use glam::{Vec3, Vec3A};
@@ -68,11 +68,10 @@ fn bounds(points: impl Iterator<Item = Vec3>) -> [Vec3; 2] {
 /// As [`order`], in one curve through those bounds. Points that crowd into one cell are ordered along a curve through their
 /// own bounds.
 fn along_curve(points: impl ExactSizeIterator<Item = Vec3> + Clone, bounds: [Vec3; 2]) -> Vec<u32> {
-    let mut elements = Grid::over(bounds).elements(points.clone());
-    let crowds = sort::sort(&mut elements);
-    let mut order: Vec<u32> = elements.iter().map(|&element| element as u32).collect();
+    let (mut order, crowds) = sort::sort(Grid::over(bounds).keys(points.clone()));
+    let all = order.len();
     let mut places = Vec::new();
-    for within in crowds.into_iter().filter(|crowd| crowd.len() < elements.len()) {
+    for within in crowds.into_iter().filter(|crowd| crowd.len() < all) {
         if places.is_empty() {
             places.extend(points.clone());
         }

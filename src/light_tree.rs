@@ -38,14 +38,23 @@ pub struct LightTree {
 }
 
 impl LightTree {
-    /// Orders the lights and builds the tree.
+    /// Orders the lights and builds the tree, about an origin.
     #[must_use]
-    pub fn new(lights: &[PointLight]) -> Self {
-        let (order, ranged) = order(lights);
-        let ordered: Vec<PointLight> = order.iter().map(|&index| lights[index as usize]).collect();
-        let nodes = build(&ordered[..ranged]);
-        let moments = moments_of(&ordered[ranged..], ranged);
-        Self { lights: ordered, ranged, nodes, moments }
+    pub fn new(lights: &[PointLight], origin: Vec3) -> Self {
+        let (order, ranged) = order(lights, |index| lights[index].position);
+        let at = |&index: &u32| {
+            let light = &lights[index as usize];
+            PointLight { position: light.position - origin, ..*light }
+        };
+        Self::over(order.iter().map(at).collect(), ranged)
+    }
+
+    /// The tree over lights in the order that they have, the first so many of them with a range.
+    #[must_use]
+    pub fn over(lights: Vec<PointLight>, ranged: usize) -> Self {
+        let nodes = build(&lights[..ranged]);
+        let moments = moments_of(&lights[ranged..], ranged);
+        Self { lights, ranged, nodes, moments }
     }
 
     /// Top nodes.
@@ -63,18 +72,18 @@ pub fn median_range(lights: &[PointLight]) -> f32 {
     if ranges.is_empty() { 0.0 } else { *ranges.select_nth_unstable_by(middle, f32::total_cmp).1 }
 }
 
-/// Indices of the lights in device order, and how many of them have a range.
+/// Indices of the lights in device order where they are in those places, and how many of them have a range.
 #[must_use]
-pub fn order(lights: &[PointLight]) -> (Vec<u32>, usize) {
+pub fn order(lights: &[PointLight], place: impl Fn(usize) -> Vec3 + Copy) -> (Vec<u32>, usize) {
     let ranged = lights.iter().filter(|light| light.range.is_some()).count();
     if ranged == 0 || ranged == lights.len() {
-        return (hilbert::order(lights.iter().map(|light| light.position)), ranged);
+        return (hilbert::order((0..lights.len()).map(place)), ranged);
     }
     let along_curve = |ranged: bool| {
         let of_kind = |&index: &u32| lights[index as usize].range.is_some() == ranged;
         let kind: Vec<u32> = (0..lights.len() as u32).filter(of_kind).collect();
-        let order = hilbert::order(kind.iter().map(|&index| lights[index as usize].position));
-        order.into_iter().map(move |place| kind[place as usize])
+        let order = hilbert::order(kind.iter().map(|&index| place(index as usize)));
+        order.into_iter().map(move |at| kind[at as usize])
     };
     (along_curve(true).chain(along_curve(false)).collect(), ranged)
 }
@@ -182,7 +191,7 @@ mod tests {
     #[test]
     fn every_light_is_in_one_leaf_and_inside_every_box_above_it() {
         for count in [1, 31, 32, 33, 2048, 2049, 150_000] {
-            let tree = LightTree::new(&lights(count));
+            let tree = LightTree::new(&lights(count), Vec3::ZERO);
             let mut seen = vec![0; count];
             let tops = tree.top_nodes() as usize;
             let (crowns, below) = tree.nodes.split_at(tops.div_ceil(FAN));
@@ -214,11 +223,11 @@ mod tests {
     fn lights_far_from_all_others_leave_these_in_order() {
         let mut all = lights(30_000);
         all.iter_mut().for_each(|light| light.range = None);
-        let alone = surface(&LightTree::new(&all));
+        let alone = surface(&LightTree::new(&all, Vec3::ZERO));
         for far in [Vec3::splat(1e3), Vec3::X * 1e6, Vec3::NEG_Y * 1e6, Vec3::new(-1e9, 1e12, 3e5)] {
             let mut with = all.clone();
             with[17].position = far;
-            let tree = LightTree::new(&with);
+            let tree = LightTree::new(&with, Vec3::ZERO);
             let found = surface(&tree);
             assert!(found < 1.2 * alone && found > alone / 1.2, "{far}: {found}, {alone} without");
         }
@@ -228,9 +237,9 @@ mod tests {
     fn unranged_lights_follow_the_ranged_ones() {
         let mut all = lights(10);
         all[3].range = None;
-        let tree = LightTree::new(&all);
+        let tree = LightTree::new(&all, Vec3::ZERO);
         assert_eq!(tree.ranged, 9);
         assert_eq!(tree.lights[9], all[3]);
-        assert!(LightTree::new(&[]).nodes.is_empty());
+        assert!(LightTree::new(&[], Vec3::ZERO).nodes.is_empty());
     }
 }

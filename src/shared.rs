@@ -43,7 +43,7 @@ shared! {
         FOLD_TEXELS = 3;
         /// Texels of a folded list's nodes, behind the point that they are relative to.
         FOLD_ROOM = 25;
-        /// Invocations of the workgroup that folds a list.
+        /// Invocations of the workgroup that folds a list, at most.
         FOLD_LANES = 32;
         /// Depth slices at most.
         MAX_SLICES = 256;

@@ -17,11 +17,11 @@ void load_points(Cluster cluster) {
     uint pixels = uint(bitCount(cluster.pixels.x) + bitCount(cluster.pixels.y));
     point_count = clamp(pixels, 1u, FOLD_POINTS);
     share = 1.0 / float(point_count);
-    if (gl_LocalInvocationIndex < FOLD_POINTS) {
-        uint bit = nth_bit(cluster.pixels, min(gl_LocalInvocationIndex, point_count - 1u) * pixels / point_count);
+    for (uint k = gl_LocalInvocationIndex; k < FOLD_POINTS; k += LANES) {
+        uint bit = nth_bit(cluster.pixels, min(k, point_count - 1u) * pixels / point_count);
         uvec2 pixel = min(corner + uvec2(bit % TILE_SIZE, bit / TILE_SIZE), frame.size - 1u);
         float z = view_depth(frame, texelFetch(depth_texture, ivec2(pixel), 0).r);
-        places[gl_LocalInvocationIndex] = world_position(frame, vec2(pixel) + 0.5, z);
+        places[k] = world_position(frame, vec2(pixel) + 0.5, z);
     }
     barrier();
     base = places[0];
@@ -33,21 +33,34 @@ void load_points(Cluster cluster) {
     [[unroll]] for (uint k = 0u; k < FOLD_POINTS; ++k) points[k] = k < point_count ? points[k] - middle : NOWHERE;
 }
 
-// Mean irradiance at the points, with the mean of the channels. Two passes compare it, so no compiler may contract it in one
-// of them only.
-float strength(uint light) {
+// A light, as the points see it.
+struct Beam {
+    vec4 place;  // relative to their middle
+    vec4 power;
+};
+
+Beam beam_of(uint light) {
     vec4 place = light_place(light);
-    vec4 power = light_power(light);
     precise vec3 at = (place.xyz - base) - middle;
-    precise float sum = 0.0;
-    [[unroll]] for (uint k = 0u; k < FOLD_POINTS; ++k) {
-        precise vec3 d = at - points[k];
-        precise float d2 = dot(d, d);
-        precise float x = d2 * place.w;
-        precise float window = max(1.0 - x * x, 0.0);
-        sum += window * window / max(d2, power.w);
-    }
-    return sum * (share * dot(power.rgb, vec3(1.0 / 3.0)));
+    return Beam(vec4(at, place.w), light_power(light));
+}
+
+// `falloff` at a point. Two passes compare sums of it, so no compiler may contract it in one of them only.
+float falloff_at(Beam beam, vec3 point, out vec3 d, out float d2) {
+    precise vec3 to_light = beam.place.xyz - point;
+    precise float square = dot(to_light, to_light);
+    precise float x = square * beam.place.w;
+    precise float window = max(1.0 - x * x, 0.0);
+    precise float value = window * window / max(square, beam.power.w);
+    d = to_light;
+    d2 = square;
+    return value;
+}
+
+// Mean irradiance at the points, with the mean of the channels, for the sum over them.
+float strength(Beam beam, float sum) {
+    precise float value = sum * (share * dot(beam.power.rgb, MEAN_OF_RGB));
+    return value;
 }
 
 // Relative to the trace: 1 plus what keeps points of a plane, a line or one place apart; least along the view, across which

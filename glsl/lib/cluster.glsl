@@ -30,11 +30,8 @@ ivec3 list_texel(uint texel) {
 }
 
 // Number of the n-th bit that is set.
-uint nth_bit(uvec2 bits, uint n) {
-    uint low = uint(bitCount(bits.x));
-    uint word = n < low ? bits.x : bits.y;
-    uint at = n < low ? 0u : 32u;
-    n -= n < low ? 0u : low;
+uint nth_bit(uint word, uint n) {
+    uint at = 0u;
     for (uint width = 16u; width > 0u; width >>= 1) {
         uint below = uint(bitCount(word & ((1u << width) - 1u)));
         uint skip = n >= below ? width : 0u;
@@ -43,6 +40,11 @@ uint nth_bit(uvec2 bits, uint n) {
         at += skip;
     }
     return at;
+}
+
+uint nth_bit(uvec2 bits, uint n) {
+    uint low = uint(bitCount(bits.x));
+    return n < low ? nth_bit(bits.x, n) : 32u + nth_bit(bits.y, n - low);
 }
 
 #endif

@@ -46,14 +46,24 @@ impl GpuScene {
     }
 
     fn adopt_point_lights(&mut self, device: &Arc<Device>, scene: &Scene) -> Result<bool> {
-        let lights = placed(scene, self.origin);
+        if !self.take_lights(device, placed(scene, self.origin))? {
+            return Ok(false);
+        }
+        self.moving = Moving::new(device, scene, self.origin)?;
+        Ok(true)
+    }
+
+    /// Takes lights over that stand, about the scene's origin, in the order that they have; `false` where they are more or fewer.
+    ///
+    /// # Errors
+    /// [`crate::Error::Vulkan`] from the driver.
+    pub fn take_lights(&mut self, device: &Arc<Device>, lights: LightTree) -> Result<bool> {
         let shape = |tree: &LightTree| (tree.lights.len(), tree.ranged, tree.nodes.len(), tree.moments.len());
         if shape(&lights) != shape(&self.lights) {
             return Ok(false);
         }
         self.light_images.upload(device, &lights, Use::StorageRead)?;
         self.median_range = median_range(&lights.lights);
-        self.moving = Moving::new(device, scene, self.origin)?;
         self.lights = lights;
         Ok(true)
     }

@@ -164,9 +164,7 @@ impl Moving {
 
 /// A scene's point lights at time 0, about the device's origin.
 pub(super) fn placed(scene: &Scene, origin: Vec3) -> LightTree {
-    let mut lights = scene.point_lights.clone();
-    lights.iter_mut().for_each(|light| light.position -= origin);
-    LightTree::new(&lights)
+    LightTree::new(&scene.point_lights, origin)
 }
 
 /// Texels across, rows, and layers of places of so many lights and the null lights behind them.

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 /// Bits per axis, a multiple of the levels of a step.
 const BITS: u32 = 12;
 /// Bits of a key that the sort reads.
-pub(super) const KEY_BITS: u32 = 32;
+pub(crate) const KEY_BITS: u32 = 32;
 /// As many keys are made together: their bits four at a time, where processors can, and only then one by one.
 const BLOCK: usize = 64;
 /// Orientations of the curve.
@@ -101,10 +101,10 @@ impl Grid {
         Self { lower, scale: (0.5 * ((1 << BITS) - 4) as f32 / extent).min(f32::MAX) }
     }
 
-    /// Keys of the points, and behind each its point's index.
-    pub(super) fn elements(&self, mut points: impl ExactSizeIterator<Item = Vec3>) -> Vec<u64> {
+    /// Keys of the points.
+    pub(super) fn keys(&self, mut points: impl ExactSizeIterator<Item = Vec3>) -> Vec<u32> {
         let steps = &**STEPS;
-        let mut elements: Vec<u64> = Vec::with_capacity(points.len());
+        let mut keys = Vec::with_capacity(points.len());
         let mut block = [Vec3::ZERO; BLOCK];
         loop {
             let mut count = 0;
@@ -112,18 +112,15 @@ impl Grid {
                 *slot = point;
                 count += 1;
             }
-            let first = elements.len() as u64;
-            let keys = self.keys(steps, &block);
-            elements
-                .extend(keys[..count].iter().zip(first..).map(|(&key, index)| u64::from(key) << 32 | index));
+            keys.extend_from_slice(&self.block_keys(steps, &block)[..count]);
             if count < BLOCK {
-                return elements;
+                return keys;
             }
         }
     }
 
     /// The first bits of each point's place along the curve.
-    fn keys(&self, steps: &Steps, points: &[Vec3; BLOCK]) -> [u32; BLOCK] {
+    fn block_keys(&self, steps: &Steps, points: &[Vec3; BLOCK]) -> [u32; BLOCK] {
         let mut halves = [[0; 2]; BLOCK];
         for (halves, point) in halves.iter_mut().zip(points) {
             // Added to 2²³ a float's last bits are the integer: a conversion with its checks costs three times as much.
@@ -162,7 +159,7 @@ mod tests {
         let mut cells = vec![None; 4096];
         for first in (0..4096).step_by(BLOCK) {
             let points: [Vec3; BLOCK] = std::array::from_fn(|i| point(first + i));
-            let keys = grid.keys(&STEPS, &points.map(|p| p + 1.0 / 512.0));
+            let keys = grid.block_keys(&STEPS, &points.map(|p| p + 1.0 / 512.0));
             for (p, key) in points.into_iter().zip(keys) {
                 assert!(cells[(key >> 20) as usize].replace(p).is_none());
             }

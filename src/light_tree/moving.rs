@@ -90,7 +90,8 @@ impl MovingLights {
         if self.ordered_at == time {
             return false;
         }
-        (self.order, self.ranged) = order(&self.lights_at(time));
+        let places = self.places_at(time);
+        (self.order, self.ranged) = order(&self.lights, |index| places[index]);
         let mut courses = vec![0; self.lights.len()];
         for (motion, course) in self.motions.iter().zip(1..) {
             courses[motion.lights.clone()].fill(course);
@@ -158,16 +159,15 @@ impl MovingLights {
         }
     }
 
-    /// In file order, about the device's origin.
-    fn lights_at(&self, t: f64) -> Vec<PointLight> {
-        let mut lights = self.lights.clone();
+    /// In file order, world.
+    fn places_at(&self, t: f64) -> Vec<Vec3> {
+        let mut places: Vec<Vec3> = self.lights.iter().map(|light| light.position).collect();
         for (motion, placement) in self.motions.iter().zip(&self.placements(t)[1..]) {
-            let group = lights[motion.lights.clone()].iter_mut().zip(&self.directions[motion.lights.clone()]);
-            let group = group.map(|(light, direction)| (light.position, *direction, light));
-            placement.place(group, |light, position| light.position = position);
+            let group = places[motion.lights.clone()].iter_mut().zip(&self.directions[motion.lights.clone()]);
+            let group = group.map(|(place, direction)| (*place, *direction, place));
+            placement.place(group, |place, position| *place = position);
         }
-        lights.par_iter_mut().for_each(|light| light.position -= self.origin);
-        lights
+        places
     }
 
     /// By a traveller's course.

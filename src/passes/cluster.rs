@@ -259,8 +259,17 @@ impl Cuts {
 fn of_fold(inputs: &PassInputs<'_>) -> Result<ComputePipeline> {
     let matte = (shared::SPEC_MODEL, shared::MODEL_MATTE);
     let glossy = inputs.scene.variants.iter().any(|it| !it.specialization.values().contains(&matte));
-    let specialization = Specialization::default().with(shared::SPEC_GLOSSY, u32::from(glossy));
+    let specialization = Specialization::default()
+        .with(shared::SPEC_GLOSSY, u32::from(glossy))
+        .with(shared::SPEC_LANES, fold_lanes(inputs.lanes, inputs.scene.lights.ranged));
     ComputePipeline::new(inputs.device, &inputs.scene.layout, shaders::CLUSTER_FOLD_COMP, &specialization)
+}
+
+/// Invocations that fold a list. With `2¹⁵` lights each at most no loop has more iterations than lavapipe runs; more of them
+/// than a vector has cost it their part in every sum.
+fn fold_lanes(lanes: u32, ranged: usize) -> u32 {
+    let needed = ranged.div_ceil(1 << 15).next_power_of_two() as u32;
+    needed.max(lanes).min(shared::FOLD_LANES)
 }
 
 /// Records steps, each with the words of the counters that say of how many workgroups, or with one.

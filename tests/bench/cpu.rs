@@ -7,6 +7,7 @@ use amas::ltc::{Layer, Objective, fit_texel};
 use amas::reference::{Options, Oracle};
 use amas::scene::{Scene, load_embedded};
 use criterion::{Criterion, criterion_group, criterion_main};
+use glam::Vec3;
 use std::hint::black_box;
 
 /// 400 spheres as tables of the scene file, and 4,096 lights in a file of their own.
@@ -40,7 +41,7 @@ fn lights(c: &mut Criterion) {
     c.bench_function("Hilbert order of 1048576 points", |b| {
         b.iter(|| hilbert::order(black_box(&places).iter().copied()));
     });
-    c.bench_function("tree of 1048576 lights", |b| b.iter(|| LightTree::new(black_box(&lights))));
+    c.bench_function("tree of 1048576 lights", |b| b.iter(|| LightTree::new(black_box(&lights), Vec3::ZERO)));
 }
 
 /// A texel in the middle of the table of metals, started from the analytic limit alone.

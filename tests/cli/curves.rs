@@ -78,7 +78,17 @@ fn many_lights() {
     assert!(caps.windows(2).all(|pair| pair[0][1] >= pair[1][1]), "{caps:?}");
     assert!(caps.last().unwrap()[1] < 1e-5, "{caps:?}");
     assert_eq!(of("lights").iter().map(|point| point[0]).collect::<Vec<_>>(), [1024.0, 4096.0]);
-    for sweep in ["light_error", "max_lights_per_cluster", "lights"] {
+    // The same lists whatever the order, and more nodes to test for them without one.
+    let order = |key: &str| -> Vec<f64> {
+        let own = points.iter().filter(|point| point["sweep"] == "order");
+        own.map(|point| point[key].as_f64().unwrap()).collect()
+    };
+    assert_eq!(order("setting"), [2.0, 1.0, 0.0]);
+    assert!(order("error").into_iter().all(|error| error < 1e-5));
+    assert!(order("pair_ratio").windows(2).all(|pair| pair[0] == pair[1]));
+    let visited = order("nodes_visited");
+    assert!(visited[..2].iter().all(|&along_curve| 1.5 * along_curve < visited[2]), "{visited:?}");
+    for sweep in ["light_error", "max_lights_per_cluster", "lights", "order", "Morton"] {
         assert!(printed.contains(sweep), "{printed}");
     }
     let svg = String::from_utf8(folder.read("lights.svg")).unwrap();

@@ -68,13 +68,14 @@ fn workgroups_have_the_size_that_dispatches_assume() {
         let want = match shader.name {
             _ if shader.stage != Stage::Compute => None,
             // Chosen when the pipeline is made: 8, or 32.
-            "cluster/slices.comp" | "cluster/bounds.comp" | "cluster/gather.comp" => Some([1, 1, 1]),
+            "cluster/slices.comp" | "cluster/bounds.comp" | "cluster/gather.comp" | "cluster/fold.comp" => {
+                Some([1, 1, 1])
+            }
             name if name.starts_with("resolve/many_") => Some([1, 1, 1]),
             // One workgroup per tile: one invocation per pixel.
             "cluster/pairs.comp" | "cluster/floors.comp" | "cluster/given_up.comp" => Some([tile, tile, 1]),
             "gather/gather.comp" => Some([sized("GATHER_SIDE"), sized("GATHER_SIDE"), 1]),
             "cluster/bands.comp" => Some([sized("BANDS"), 1, 1]),
-            "cluster/fold.comp" => Some([sized("FOLD_LANES"), 1, 1]),
             "cluster/count.comp" => Some([linear / sized("SIBLINGS"), 1, 1]),
             "cluster/scan_tiles.comp"
             | "cluster/scan_lists.comp"

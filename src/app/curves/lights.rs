@@ -1,5 +1,6 @@
 //! The chapter on point lights by the thousand: what a picture costs, and how wrong it is, by each knob.
 
+mod order;
 mod page;
 mod plot;
 mod sweeps;
@@ -14,10 +15,11 @@ use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
 use crate::image::HdrImage;
-use crate::light_tree::LightTree;
 use crate::scene::Scene;
 use cpu_time::ProcessTime;
+use glam::Vec3;
 use indicatif::ProgressBar;
+use order::{Order, nodes_visited};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -47,6 +49,8 @@ pub(super) struct Point {
     sweep: &'static str,
     /// Where it stands.
     setting: f64,
+    /// What that is called.
+    label: String,
     /// Point lights of the scene.
     lights: usize,
     /// CPU time of the process, milliseconds a frame.
@@ -55,6 +59,8 @@ pub(super) struct Point {
     wall_ms: Figure,
     /// CPU time of the order of the lights and the tree over them, milliseconds: once where they stand.
     tree_ms: Figure,
+    /// Nodes of the tree over lights with a range that a frame tests.
+    nodes_visited: u64,
     /// Pairs of pixel and light a pixel.
     pairs_per_pixel: f64,
     /// Evaluated pairs over useful ones.
@@ -94,12 +100,14 @@ pub(super) fn run(device: &Arc<Device>, quick: bool, out: &Path) -> Result<Strin
 
 fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
     let extent = if quick { QUICK } else { FULL };
-    let settings: usize = SWEEPS.iter().map(|sweep| sweep.settings.len().div_ceil(extent.step)).sum();
+    let settings: usize =
+        SWEEPS.iter().map(|sweep| sweep.settings.len().div_ceil(sweep.step(extent.step))).sum();
     let bar = progress(settings * (2 + extent.repetitions));
     let mut points = Vec::new();
+    let mut last = None;
     for sweep in SWEEPS {
         bar.set_message(sweep.name);
-        points.extend(of_sweep(device, sweep, extent, &bar)?);
+        points.extend(of_sweep(device, sweep, extent, &mut last, &bar)?);
     }
     bar.finish_and_clear();
     let extent =
@@ -118,36 +126,65 @@ struct Subject {
     trees: Vec<f64>,
 }
 
-fn of_sweep(device: &Arc<Device>, sweep: &Sweep, extent: Extent, bar: &ProgressBar) -> Result<Vec<Point>> {
-    let mut subjects = Vec::new();
-    let mut last: Option<(Scene, Arc<GpuScene>, HdrImage)> = None;
-    for &setting in sweep.settings.iter().step_by(extent.step) {
-        let scene = sweep.scene(setting, extent.size, extent.fewer)?;
-        let (gpu_scene, truth) = match &last {
-            // Most knobs leave the lights alone.
-            Some((old, gpu_scene, truth)) if old.point_lights == scene.point_lights => {
-                (gpu_scene.clone(), truth.clone())
-            }
-            _ => {
-                let gpu_scene = Arc::new(GpuScene::new(device, &scene)?);
-                let brute_force = FrameSettings { brute_force: true, ..settings(&scene) };
-                let mut frame = Frame::new(device, &gpu_scene, brute_force)?;
-                render(&mut frame, &scene)?;
-                (gpu_scene, frame.hdr()?)
+/// What was uploaded last, with the order of its lights, and its truth.
+struct Uploaded {
+    scene: Scene,
+    order: Order,
+    gpu_scene: Arc<GpuScene>,
+    truth: HdrImage,
+}
+
+impl Uploaded {
+    /// A scene with its lights in an order. Most knobs leave lights and order alone.
+    fn new(device: &Arc<Device>, scene: &Scene, order: Order, last: Option<Self>) -> Result<Self> {
+        let last = last.filter(|last| last.scene.point_lights == scene.point_lights);
+        let (gpu_scene, truth) = match last {
+            Some(last) if last.order == order => (last.gpu_scene, Some(last.truth)),
+            last => {
+                let mut gpu_scene = GpuScene::new(device, scene)?;
+                if order != Order::Hilbert {
+                    gpu_scene.take_lights(device, order.tree(&scene.point_lights, gpu_scene.origin))?;
+                }
+                (Arc::new(gpu_scene), last.map(|last| last.truth))
             }
         };
+        let truth = match truth {
+            Some(truth) => truth,
+            None => {
+                let brute_force = FrameSettings { brute_force: true, ..settings(scene) };
+                let mut frame = Frame::new(device, &gpu_scene, brute_force)?;
+                render(&mut frame, scene)?;
+                frame.hdr()?
+            }
+        };
+        Ok(Self { scene: scene.clone(), order, gpu_scene, truth })
+    }
+}
+
+fn of_sweep(
+    device: &Arc<Device>,
+    sweep: &Sweep,
+    extent: Extent,
+    last: &mut Option<Uploaded>,
+    bar: &ProgressBar,
+) -> Result<Vec<Point>> {
+    let mut subjects = Vec::new();
+    for &setting in sweep.settings.iter().step_by(sweep.step(extent.step)) {
+        let scene = sweep.scene(setting, extent.size, extent.fewer)?;
+        let uploaded = Uploaded::new(device, &scene, setting.order(), last.take())?;
         bar.inc(1);
-        let mut frame = Frame::new(device, &gpu_scene, settings(&scene))?;
+        let mut frame = Frame::new(device, &uploaded.gpu_scene, settings(&scene))?;
         // The first frame compiles, and makes room for its lists.
         render(&mut frame, &scene)?;
         bar.inc(1);
-        last = Some((scene.clone(), gpu_scene, truth.clone()));
+        let truth = uploaded.truth.clone();
+        *last = Some(uploaded);
         subjects.push(Subject { setting, scene, frame, truth, timings: Vec::new(), trees: Vec::new() });
     }
     for _ in 0..extent.repetitions {
         for subject in &mut subjects {
             subject.timings.push(render(&mut subject.frame, &subject.scene)?);
-            subject.trees.push(tree_ms(&subject.scene));
+            subject.trees.push(tree_ms(subject.setting.order(), &subject.scene));
             bar.inc(1);
         }
     }
@@ -175,9 +212,9 @@ fn render(frame: &mut Frame, scene: &Scene) -> Result<Timings> {
     })
 }
 
-fn tree_ms(scene: &Scene) -> f64 {
+fn tree_ms(order: Order, scene: &Scene) -> f64 {
     let clock = ProcessTime::now();
-    let tree = LightTree::new(&scene.point_lights);
+    let tree = order.tree(&scene.point_lights, Vec3::ZERO);
     let taken = clock.elapsed();
     drop(tree);
     taken.as_secs_f64() * 1e3
@@ -201,10 +238,12 @@ fn point(sweep: &Sweep, subject: &Subject) -> Result<Point> {
     Ok(Point {
         sweep: sweep.name,
         setting: setting.value(scene),
+        label: setting.label(scene),
         lights: scene.point_lights.len(),
         cpu_ms: report::figure(timings, |t| Some(t.cpu_ms)).unwrap_or_default(),
         wall_ms: report::figure(timings, |t| Some(t.wall_ms)).unwrap_or_default(),
         tree_ms: Figure::of(trees).unwrap_or_default(),
+        nodes_visited: nodes_visited(frame)?,
         pairs_per_pixel: pairs.evaluated as f64 / f64::from(width * height),
         pair_ratio: pairs.evaluated as f64 / pairs.useful.max(1) as f64,
         error: figures.mean_relative_error,

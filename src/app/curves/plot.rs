@@ -6,6 +6,7 @@ use crate::image::{save_png8, write_atomically};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A font that vector pictures leave to the viewer, and bitmaps replace by their own.
@@ -47,6 +48,62 @@ fn png<P: Plot>(path: &Path, plot: &P) -> Result<()> {
 
 fn failed(path: &Path, error: impl ToString) -> Error {
     Error::Write { file: path.to_path_buf(), source: io::Error::other(error.to_string()) }
+}
+
+/// What a point is called.
+pub(super) struct Label {
+    /// Where the point is, pixels.
+    pub(super) at: (i32, i32),
+    pub(super) text: String,
+    pub(super) color: RGBColor,
+    /// From where to where it may reach across.
+    pub(super) within: [i32; 2],
+}
+
+/// Pixels of a letter, about, to keep labels apart.
+const LETTER: [i32; 2] = [8, 15];
+
+/// Labels go where nothing is: points first, then each label at the first free place beside its own.
+pub(super) fn draw_labels<B: DrawingBackend>(root: &DrawingArea<B, Shift>, labels: &[Label]) -> Drawn<B> {
+    let of_point = |label: &Label| {
+        let (x, y) = label.at;
+        [x - 7, y - 7, x + 7, y + 7]
+    };
+    let mut taken: Vec<[i32; 4]> = labels.iter().map(of_point).collect();
+    for Label { at: (x, y), text, color, within } in labels {
+        let [width, height] = [LETTER[0] * text.len() as i32, LETTER[1]];
+        let places = [
+            (x + 11, y - height / 2),
+            (x - 11 - width, y - height / 2),
+            (x + 8, y - height - 6),
+            (x + 8, y + 6),
+            (x - 8 - width, y - height - 6),
+            (x - 8 - width, y + 6),
+            (x - width / 2, y - height - 12),
+            (x - width / 2, y + 12),
+            (x + 8, y + 22),
+            (x - 8 - width, y - height - 22),
+        ];
+        let free = |&(left, top): &(i32, i32)| {
+            let inside = left > within[0] && left + width < within[1];
+            let clear =
+                |b: &[i32; 4]| left + width < b[0] || left > b[2] || top + height < b[1] || top > b[3];
+            inside && taken.iter().all(clear)
+        };
+        let (left, top) = places.into_iter().find(free).unwrap_or(places[0]);
+        taken.push([left, top, left + width, top + height]);
+        root.draw_text(text, &FONT.into_font().color(color), (left, top))?;
+    }
+    Ok(())
+}
+
+/// Where a logarithmic axis has numbers: at powers of ten, and where it has less than two of these at their doubles and
+/// fivefolds too.
+pub(super) fn ticks(range: &Range<f64>) -> Vec<f64> {
+    let decades = range.start.log10().floor() as i32..=range.end.log10().floor() as i32;
+    let multiples: &[f64] = if range.end < 100.0 * range.start { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let all = decades.flat_map(|decade| multiples.iter().map(move |multiple| multiple * 10_f64.powi(decade)));
+    all.filter(|tick| range.contains(tick)).collect()
 }
 
 /// Without a tail of digits.

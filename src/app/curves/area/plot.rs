@@ -1,6 +1,6 @@
 //! The plot: error over time, both logarithmic, one panel a band.
 
-use super::super::plot::{Drawn, FONT, Plot, TITLE, number};
+use super::super::plot::{Drawn, FONT, Label, Plot, TITLE, draw_labels, number};
 use super::configurations::BANDS;
 use super::figures::Point;
 use super::tiers::Family;
@@ -18,8 +18,6 @@ const FAMILIES: [(Family, RGBColor); 7] = [
     (Family::ProxySamples, RGBColor(120, 90, 50)),
 ];
 
-/// Pixels of a letter, about, to keep labels apart.
-const LETTER: [i32; 2] = [8, 15];
 /// What the axis takes at a panel's left.
 const MARGIN: i32 = 80;
 
@@ -81,36 +79,13 @@ fn draw<B: DrawingBackend>(root: &DrawingArea<B, Shift>, points: &[Point]) -> Dr
                 if p.pareto {
                     chart.draw_series([Circle::new(at(p), size + 3, color.stroke_width(1))])?;
                 }
-                labels.push((chart.plotting_area().map_coordinate(&at(p)), p.tier, color));
+                let at = chart.plotting_area().map_coordinate(&at(p));
+                let panel = at.0 / width_of_panel * width_of_panel;
+                let within = [panel + MARGIN, panel + width_of_panel];
+                labels.push(Label { at, text: p.tier.to_owned(), color, within });
             }
         }
     }
-    // Labels go where nothing is: points first, then each label at the first free place beside its own.
-    let mut taken: Vec<[i32; 4]> = labels.iter().map(|&((x, y), ..)| [x - 7, y - 7, x + 7, y + 7]).collect();
-    for ((x, y), text, color) in labels {
-        let [width, height] = [LETTER[0] * text.len() as i32, LETTER[1]];
-        let places = [
-            (x + 11, y - height / 2),
-            (x - 11 - width, y - height / 2),
-            (x + 8, y - height - 6),
-            (x + 8, y + 6),
-            (x - 8 - width, y - height - 6),
-            (x - 8 - width, y + 6),
-            (x - width / 2, y - height - 12),
-            (x - width / 2, y + 12),
-            (x + 8, y + 22),
-            (x - 8 - width, y - height - 22),
-        ];
-        let free = |&(left, top): &(i32, i32)| {
-            let panel = x / width_of_panel * width_of_panel;
-            let inside = left > panel + MARGIN && left + width < panel + width_of_panel;
-            let clear =
-                |b: &[i32; 4]| left + width < b[0] || left > b[2] || top + height < b[1] || top > b[3];
-            inside && taken.iter().all(clear)
-        };
-        let (left, top) = places.into_iter().find(free).unwrap_or(places[0]);
-        taken.push([left, top, left + width, top + height]);
-        root.draw_text(text, &FONT.into_font().color(&color), (left, top))?;
-    }
+    draw_labels(root, &labels)?;
     root.present()
 }

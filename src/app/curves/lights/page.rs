@@ -9,14 +9,14 @@ use std::io::{self, Write};
 pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
     writeln!(
         file,
-        "sweep,setting,lights,cpu_ms,cpu_ms_mad,wall_ms,tree_cpu_ms,pairs_per_pixel,pair_ratio,error,error_p99,bias,pareto"
+        "sweep,setting,lights,cpu_ms,cpu_ms_mad,wall_ms,tree_cpu_ms,pairs_per_pixel,pair_ratio,error,error_p99,bias,pareto,nodes_visited"
     )?;
     points.iter().try_for_each(|p| {
         writeln!(
             file,
-            "{},{},{},{:.2},{:.2},{:.2},{:.2},{:.2},{:.3},{:.6},{:.6},{:.6},{}",
+            "{},{},{},{:.2},{:.2},{:.2},{:.2},{:.2},{:.3},{:.6},{:.6},{:.6},{},{}",
             p.sweep,
-            p.setting,
+            p.label,
             p.lights,
             p.cpu_ms.median,
             p.cpu_ms.mad,
@@ -27,7 +27,8 @@ pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
             p.error,
             p.error_p99,
             p.bias,
-            u8::from(p.pareto)
+            u8::from(p.pareto),
+            p.nodes_visited
         )
     })
 }
@@ -43,7 +44,7 @@ pub(super) fn summary(figures: &Figures) -> String {
             let _ = writeln!(
                 text,
                 "{:<24}{:>8.1}  {:>12.1}   {:>10.6}   {:>9.6}   {:>8.5}",
-                p.setting, p.cpu_ms.median, p.pairs_per_pixel, p.error, p.error_p99, p.bias
+                p.label, p.cpu_ms.median, p.pairs_per_pixel, p.error, p.error_p99, p.bias
             );
         }
     }
@@ -86,20 +87,21 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
         let _ = write!(
             text,
             "\n## `{}`\n\nSwept: {}.\n\n\
-             | {} | lights | CPU ms | wall ms | tree, CPU ms | pairs a pixel | evaluated per useful | mean error | p99 | bias | front |\n\
-             | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+             | {} | lights | CPU ms | wall ms | tree, CPU ms | nodes tested | pairs a pixel | evaluated per useful | mean error | p99 | bias | front |\n\
+             | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
             sweep.name, sweep.what, sweep.name
         );
         for p in figures.points.iter().filter(|p| p.sweep == sweep.name) {
             let _ = writeln!(
                 text,
-                "| {} | {} | {:.1} ± {:.1} | {:.1} | {:.1} | {:.1} | {:.2} | {:.4} % | {:.3} % | {:+.4} % | {} |",
-                p.setting,
+                "| {} | {} | {:.1} ± {:.1} | {:.1} | {:.1} | {} | {:.1} | {:.2} | {:.4} % | {:.3} % | {:+.4} % | {} |",
+                p.label,
                 p.lights,
                 p.cpu_ms.median,
                 p.cpu_ms.mad,
                 p.wall_ms.median,
                 p.tree_ms.median,
+                p.nodes_visited,
                 p.pairs_per_pixel,
                 p.pair_ratio,
                 100.0 * p.error,

@@ -1,8 +1,9 @@
-//! The plot: error over time for the two knobs, time over the number of lights; all logarithmic.
+//! The plot: error over time for the two knobs, time over the number of lights; all logarithmic. The order of the lights has no
+//! error to plot.
 
-use super::super::plot::{Drawn, FONT, Plot, TITLE, number};
+use super::super::plot::{Drawn, FONT, Label, Plot, TITLE, draw_labels, number, ticks};
 use super::Point;
-use super::sweeps::{GROWTH, SWEEPS};
+use super::sweeps::{GROWTH, ORDER, SWEEPS};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -10,7 +11,7 @@ use plotters::prelude::*;
 pub(super) struct LightsPlot<'a>(pub(super) &'a [Point]);
 
 const LINE: RGBColor = RGBColor(30, 90, 200);
-const GRID: [RGBColor; 2] = [RGBColor(240, 240, 240), RGBColor(215, 215, 215)];
+const GRID: RGBColor = RGBColor(215, 215, 215);
 /// Errors below this are rounding.
 const LEAST_ERROR: f64 = 1e-7;
 
@@ -19,7 +20,9 @@ impl Plot for LightsPlot<'_> {
 
     fn draw<B: DrawingBackend>(&self, root: &DrawingArea<B, Shift>) -> Drawn<B> {
         root.fill(&WHITE)?;
-        for (sweep, panel) in SWEEPS.iter().zip(root.split_evenly((1, SWEEPS.len()))) {
+        let plotted: Vec<_> = SWEEPS.iter().filter(|sweep| sweep.name != ORDER).collect();
+        let mut labels = Vec::new();
+        for (sweep, panel) in plotted.iter().zip(root.split_evenly((1, plotted.len()))) {
             let own: Vec<&Point> = self.0.iter().filter(|p| p.sweep == sweep.name).collect();
             let growth = sweep.name == GROWTH;
             let at = |p: &Point| match growth {
@@ -28,55 +31,59 @@ impl Plot for LightsPlot<'_> {
             };
             let axes =
                 if growth { "across: lights; up: CPU ms" } else { "across: CPU ms; up: mean relative error" };
-            draw_panel(
-                &panel,
-                sweep.what,
-                axes,
-                &own.iter().map(|p| (at(p), p.setting)).collect::<Vec<_>>(),
-            )?;
+            let points: Vec<_> = own.iter().map(|p| (at(p), p.label.as_str())).collect();
+            labels.extend(draw_panel(&panel, sweep.what, axes, &points)?);
         }
+        draw_labels(root, &labels)?;
         root.present()
     }
 }
 
-/// Points joined by a line, each labelled with its setting.
+/// What the axis takes at a panel's left.
+const MARGIN: i32 = 80;
+
+/// Points joined by a line, and each one's label.
 fn draw_panel<B: DrawingBackend>(
     panel: &DrawingArea<B, Shift>,
     title: &str,
     axes: &str,
-    points: &[((f64, f64), f64)],
-) -> Drawn<B> {
+    points: &[((f64, f64), &str)],
+) -> Result<Vec<Label>, DrawingAreaErrorKind<B::ErrorType>> {
     let range = |value: fn(&(f64, f64)) -> f64| {
         let values = points.iter().map(|(at, _)| value(at).max(LEAST_ERROR));
         let (least, most) = values.fold((f64::MAX, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
         least / 1.6..most.max(least * 1.1) * 1.6
     };
+    let (x, y) = (range(|at| at.0), range(|at| at.1));
     let mut chart = ChartBuilder::on(panel)
         .margin(16)
         .caption(title, TITLE)
         .x_label_area_size(46)
         .y_label_area_size(64)
-        .build_cartesian_2d(range(|at| at.0).log_scale(), range(|at| at.1).log_scale())?;
+        .build_cartesian_2d(
+            x.clone().log_scale().with_key_points(ticks(&x)),
+            y.clone().log_scale().with_key_points(ticks(&y)),
+        )?;
     chart
         .configure_mesh()
         .label_style(FONT)
         .x_desc(axes)
         .x_label_formatter(&|value| number(*value))
         .y_label_formatter(&|value| number(*value))
-        .light_line_style(GRID[0])
-        .bold_line_style(GRID[1])
+        .bold_line_style(GRID)
         .draw()?;
     chart.draw_series([PathElement::new(
         points.iter().map(|(at, _)| *at).collect::<Vec<_>>(),
         LINE.stroke_width(1),
     )])?;
-    for (at, setting) in points {
-        chart.draw_series([Circle::new(*at, 4, LINE.filled())])?;
-        let (x, y) = chart.plotting_area().map_coordinate(at);
-        panel.draw_text(&setting.to_string(), &FONT.into_font().color(&BLACK), {
-            let (left, top) = panel.get_base_pixel();
-            (x - left + 8, y - top - 18)
-        })?;
-    }
-    Ok(())
+    chart.draw_series(points.iter().map(|(at, _)| Circle::new(*at, 4, LINE.filled())))?;
+    let left = panel.get_base_pixel().0;
+    let within = [left + MARGIN, left + panel.dim_in_pixel().0 as i32];
+    let label = |(at, text): &((f64, f64), &str)| Label {
+        at: chart.plotting_area().map_coordinate(at),
+        text: (*text).to_owned(),
+        color: BLACK,
+        within,
+    };
+    Ok(points.iter().map(label).collect())
 }

@@ -1,5 +1,6 @@
 //! The knobs, and the scenes that they are turned in.
 
+use super::order::Order;
 use crate::error::Result;
 use crate::scene::{PointLight, Scene, load_embedded};
 
@@ -15,6 +16,8 @@ pub(super) enum Setting {
     Cap(u32),
     /// log2 of the number of lights, as many of them reaching a pixel whatever the number.
     Lights(u32),
+    /// Of the most lights, on the device.
+    Order(Order),
 }
 
 impl Setting {
@@ -24,6 +27,23 @@ impl Setting {
             Self::LightError(error) => error,
             Self::Cap(cap) => cap.into(),
             Self::Lights(_) => scene.point_lights.len() as f64,
+            Self::Order(order) => f64::from(order as u8),
+        }
+    }
+
+    /// What it is called.
+    pub(super) fn label(self, scene: &Scene) -> String {
+        match self {
+            Self::Order(order) => order.name().to_owned(),
+            _ => self.value(scene).to_string(),
+        }
+    }
+
+    /// The order that lights have on the device.
+    pub(super) fn order(self) -> Order {
+        match self {
+            Self::Order(order) => order,
+            _ => Order::Hilbert,
         }
     }
 }
@@ -38,6 +58,12 @@ pub(super) struct Sweep {
 
 /// The sweep of the number of lights.
 pub(super) const GROWTH: &str = "lights";
+
+/// The sweep of the order of the lights.
+pub(super) const ORDER: &str = "order";
+
+/// log2 of the most lights.
+const MOST: u32 = 20;
 
 /// All knobs, each with its positions in order.
 pub(super) const SWEEPS: &[Sweep] = &[
@@ -76,7 +102,17 @@ pub(super) const SWEEPS: &[Sweep] = &[
             Setting::Lights(14),
             Setting::Lights(16),
             Setting::Lights(18),
-            Setting::Lights(20),
+            Setting::Lights(MOST),
+        ],
+    },
+    // Behind that sweep: its last truth is this one's.
+    Sweep {
+        name: ORDER,
+        what: "order of the lights on the device, with their number as above",
+        settings: &[
+            Setting::Order(Order::Hilbert),
+            Setting::Order(Order::Morton),
+            Setting::Order(Order::AsStrewn),
         ],
     },
 ];
@@ -91,6 +127,11 @@ const RANGES: [f32; 6] = [14.608, 8.2544, 4.8726, 3.0099, 1.8255, 1.15];
 const LIGHTS: u32 = 16;
 
 impl Sweep {
+    /// Every so many-th position is measured, where as many would be of most knobs: orders have no positions between.
+    pub(super) fn step(&self, step: usize) -> usize {
+        if self.name == ORDER { 1 } else { step }
+    }
+
     /// The scene for a position of the knob, with 2^`fewer` times fewer lights than told, but 2¹⁰ at least where that is the knob.
     pub(super) fn scene(&self, setting: Setting, size: [u32; 2], fewer: u32) -> Result<Scene> {
         let mut scene = load_embedded("million.toml", HALL, &[], &[])?;
@@ -100,6 +141,8 @@ impl Sweep {
         let range = |log2: u32| 1.15 * f32::exp2((20 - log2) as f32 / 3.0);
         let log2 = match setting {
             Setting::Lights(log2) => log2.saturating_sub(fewer).max(LEAST),
+            // Brute force over these is a large part of the quick chapter.
+            Setting::Order(_) => MOST - fewer * 3 / 2,
             _ => LIGHTS - fewer,
         };
         let lights = &mut scene.point_lights;
@@ -116,7 +159,7 @@ impl Sweep {
                 scene.render.max_lights_per_cluster = cap;
                 Some(2.0 * range(log2))
             }
-            Setting::Lights(_) => Some(RANGES[(log2 - LEAST) as usize / 2]),
+            Setting::Lights(_) | Setting::Order(_) => Some(RANGES[(log2 - LEAST) as usize / 2]),
         };
         lights.iter_mut().for_each(|light| change(light, range, brighter));
         Ok(scene)

@@ -1,7 +1,8 @@
-// A cluster's list, appended to by all invocations together: four indices a texel. LANES as for lane_sums.
+// A folded cluster's list, appended to by all invocations together: four indices a texel.
 
-// Indices that wait for a texel's other ones: up to three, and those of a group for each invocation.
-shared uint waiting[4u + LANES * LEAF_LIGHTS];
+// Indices that wait for a texel's other ones: up to three, and those of a batch.
+const uint WAITING = 4u + BATCH_LIGHTS;
+shared uint waiting[WAITING];
 uint waiting_count = 0u;
 uint texel;
 uint end;
@@ -22,17 +23,13 @@ void flush(uint count) {
     texel += count;
 }
 
-// `sums`: of how many lights lower invocations list, and all.
-void append(uint group, uint listed, uvec4 sums, uint room) {
+// Writes all whole texels of what waits.
+void flush_texels() {
     uint lane = gl_LocalInvocationIndex;
-    for (uint at = waiting_count + sums.x; listed != 0u; listed &= listed - 1u) {
-        waiting[at++] = light_of(group, uint(findLSB(listed)));
-    }
     barrier();
-    waiting_count += min(sums.z, room);
     uint full = waiting_count / 4u;
     flush(full);
-    uint left = lane < 4u ? waiting[4u * full + lane] : 0u;
+    uint left = lane < 4u ? waiting[min(4u * full + lane, WAITING - 1u)] : 0u;
     barrier();
     if (lane < 4u) waiting[lane] = left;
     waiting_count &= 3u;
