@@ -1,6 +1,6 @@
 //! The plot: error over time for the two knobs, time over the number of lights; all logarithmic.
 
-use super::super::plot::{Drawn, FONT, Plot, TITLE, number};
+use super::super::plot::{Drawn, FONT, Plot, chart, ranges};
 use super::Point;
 use super::sweeps::{GROWTH, SWEEPS};
 use plotters::coord::Shift;
@@ -10,7 +10,6 @@ use plotters::prelude::*;
 pub(super) struct LightsPlot<'a>(pub(super) &'a [Point]);
 
 const LINE: RGBColor = RGBColor(30, 90, 200);
-const GRID: [RGBColor; 2] = [RGBColor(240, 240, 240), RGBColor(215, 215, 215)];
 /// Errors below this are rounding.
 const LEAST_ERROR: f64 = 1e-7;
 
@@ -46,26 +45,8 @@ fn draw_panel<B: DrawingBackend>(
     axes: &str,
     points: &[((f64, f64), f64)],
 ) -> Drawn<B> {
-    let range = |value: fn(&(f64, f64)) -> f64| {
-        let values = points.iter().map(|(at, _)| value(at).max(LEAST_ERROR));
-        let (least, most) = values.fold((f64::MAX, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
-        least / 1.6..most.max(least * 1.1) * 1.6
-    };
-    let mut chart = ChartBuilder::on(panel)
-        .margin(16)
-        .caption(title, TITLE)
-        .x_label_area_size(46)
-        .y_label_area_size(64)
-        .build_cartesian_2d(range(|at| at.0).log_scale(), range(|at| at.1).log_scale())?;
-    chart
-        .configure_mesh()
-        .label_style(FONT)
-        .x_desc(axes)
-        .x_label_formatter(&|value| number(*value))
-        .y_label_formatter(&|value| number(*value))
-        .light_line_style(GRID[0])
-        .bold_line_style(GRID[1])
-        .draw()?;
+    let ranges = ranges(points.iter().map(|(at, _)| *at), LEAST_ERROR);
+    let mut chart = chart(panel, title, ranges, axes)?;
     chart.draw_series([PathElement::new(
         points.iter().map(|(at, _)| *at).collect::<Vec<_>>(),
         LINE.stroke_width(1),
