@@ -370,6 +370,8 @@ pub(super) enum Chapter {
     Hard,
     /// What each feature costs where it is used, and where it is not
     Features,
+    /// Frame time by triangles, pixels, area lights and point lights, beside other programs
+    Scaling,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -182,3 +182,41 @@ fn cost_of_features() {
         }
     }
 }
+
+#[test]
+fn scaling() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "scaling", "--quick", "--validate"]);
+    let files = ["scaling.csv", "scaling.json", "scaling.md", "scaling.png", "scaling.svg", "scene.toml"];
+    assert_eq!(folder.names(), files);
+    let json = folder.json("scaling.json");
+    let points = json["points"].as_array().unwrap();
+    let csv = String::from_utf8(folder.read("scaling.csv")).unwrap();
+    assert_eq!(csv.lines().count(), points.len() + 1);
+    let of = |sweep: &str, key: &str| -> Vec<f64> {
+        let own = points.iter().filter(|point| point["sweep"] == sweep);
+        own.map(|point| point[key].as_f64().unwrap()).collect()
+    };
+    assert_eq!(of("pixels", "count"), [3600.0, 14400.0]);
+    assert_eq!(of("area lights", "count"), [1.0, 4.0]);
+    assert_eq!(of("point lights", "count"), [0.0, 256.0]);
+    assert!(
+        of("triangles", "count").iter().zip([1e3, 3162.0]).all(|(n, want)| (n / want - 1.0).abs() < 0.05)
+    );
+    // Every panel reaches every surface, of which there are as many: but for the half of the ball that faces away from some.
+    let panels = of("area lights", "pairs_per_pixel");
+    assert!((3.0..=4.0).contains(&(panels[1] / panels[0])), "{panels:?}");
+    // The floor of the grid has the density of its lights, whatever the picture's size; without lights there are no pairs.
+    let pixels = of("pixels", "pairs_per_pixel");
+    assert!((0.5..1.5).contains(&(pixels[1] / pixels[0])), "{pixels:?}");
+    assert_eq!(of("point lights", "pairs_per_pixel")[0], 0.0);
+    for growth in json["growth"].as_array().unwrap() {
+        assert!(["slope", "last_slope", "ns_each"].iter().all(|key| growth[key].is_number()), "{growth}");
+        assert!(printed.contains(growth["sweep"].as_str().unwrap()), "{printed}");
+    }
+    let page = String::from_utf8(folder.read("scaling.md")).unwrap();
+    assert!(
+        page.contains("| Bevy 0.19.1, lavapipe, Mesa 25.0.7 |") && page.contains("## By triangles"),
+        "{page}"
+    );
+}

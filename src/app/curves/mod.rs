@@ -7,6 +7,8 @@ mod indirect;
 mod letters;
 mod lights;
 mod plot;
+mod scaling;
+mod subject;
 
 use super::args::{Chapter, ReportOptions};
 use super::outputs::check_folder;
@@ -30,12 +32,13 @@ struct Row {
 }
 
 /// Every chapter, in the order in which they run.
-const CHAPTERS: [Row; 5] = [
+const CHAPTERS: [Row; 6] = [
     Row { chapter: Chapter::Area, files: &area::FILES, run: area::run },
     Row { chapter: Chapter::Lights, files: &lights::FILES, run: lights::run },
     Row { chapter: Chapter::Indirect, files: &indirect::FILES, run: indirect::run },
     Row { chapter: Chapter::Hard, files: &hard::FILES, run: hard::run },
     Row { chapter: Chapter::Features, files: &features::FILES, run: features::run },
+    Row { chapter: Chapter::Scaling, files: &scaling::FILES, run: scaling::run },
 ];
 
 pub(super) fn run(options: &ReportOptions) -> Result<()> {
