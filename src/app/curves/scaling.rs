@@ -55,31 +55,34 @@ struct Point {
     pairs_per_pixel: f64,
 }
 
-/// How frame time grows with what is counted.
+/// How frame time grows with what is counted, at the end of a sweep: where that is little, other things cost more.
 #[derive(Clone, Copy, Serialize)]
 struct Growth {
     sweep: &'static str,
-    /// Of the straight line through all logarithms, by least squares: 1 is proportional, 0 constant.
+    /// Of the straight line through the logarithms of the last [`FITTED`] points, by least squares: 1 is proportional, 0
+    /// constant.
     slope: f64,
-    /// Between the last two points.
-    last_slope: f64,
     /// Nanoseconds that one more takes, between the last two points.
     ns_each: f64,
+}
+
+/// Points at the end of a sweep through which a line is laid.
+const FITTED: usize = 3;
+
+/// Count and milliseconds of these points, all or fewer.
+fn fitted<'a>(points: &[&'a Point]) -> impl Iterator<Item = (f64, f64)> + Clone + use<'a> {
+    let last: Vec<&Point> = points[points.len().saturating_sub(FITTED)..].to_vec();
+    last.into_iter().map(|p| (p.count as f64, p.frame_ms.median))
 }
 
 impl Growth {
     /// `None` of fewer than two points, or of such with the same count.
     fn of(sweep: &'static str, points: &[&Point]) -> Option<Self> {
-        let at = |p: &Point| (p.count as f64, p.frame_ms.median);
         let [.., before, last] = points else { return None };
-        let (before, last) = (at(before), at(last));
-        let growth = Self {
-            sweep,
-            slope: slope(points.iter().map(|p| at(p))),
-            last_slope: (last.1 / before.1).ln() / (last.0 / before.0).ln(),
-            ns_each: 1e6 * (last.1 - before.1) / (last.0 - before.0),
-        };
-        [growth.slope, growth.last_slope, growth.ns_each].iter().all(|x| x.is_finite()).then_some(growth)
+        let more_ms = last.frame_ms.median - before.frame_ms.median;
+        let ns_each = 1e6 * more_ms / (last.count as f64 - before.count as f64);
+        let growth = Self { sweep, slope: slope(fitted(points)), ns_each };
+        (growth.slope.is_finite() && ns_each.is_finite()).then_some(growth)
     }
 }
 

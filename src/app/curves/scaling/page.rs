@@ -2,7 +2,7 @@
 
 use super::peers::{CAVEATS, Frame, PEERS};
 use super::sweeps::{LIGHTS, PIXELS, SWEEPS};
-use super::{Figures, Growth, Point};
+use super::{FITTED, Figures, Growth, Point};
 use crate::app::measure::Figure;
 use crate::gpu::DeviceInfo;
 use std::fmt::Write as _;
@@ -48,9 +48,14 @@ pub(super) fn summary(figures: &Figures) -> String {
 }
 
 fn sentence(growth: &Growth) -> String {
+    let each = match growth.ns_each {
+        ns if ns.abs() < 1e3 => format!("{ns:.0} ns"),
+        ns if ns.abs() < 1e6 => format!("{:.1} µs", 1e-3 * ns),
+        ns => format!("{:.2} ms", 1e-6 * ns),
+    };
     format!(
-        "Over {}, time grows with the power {:.2} of the count, {:.2} at the end, where one more takes {:.1} ns.",
-        growth.sweep, growth.slope, growth.last_slope, growth.ns_each
+        "Over {}, time grows with the power {:.2} of the count at the end, where one more takes {each}.",
+        growth.sweep, growth.slope
     )
 }
 
@@ -65,7 +70,7 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
          ![Frame time over triangles, pixels, area lights and point lights](scaling.png)\n\n\
          Times are medians of {} frames after warm-up, all counts of a sweep in turn; CPU time is that of the whole process. \
          The slope is that of the straight line through the logarithms of CPU time (of device time where the device is no \
-         CPU): 1 is proportional, 0 constant. How time grows with the number of lights while as many of them reach a pixel, \
+         CPU) of the last {FITTED} points: 1 is proportional, 0 constant. How time grows with the number of lights while as many of them reach a pixel, \
          to 2²⁰ of them, is in [lights](../lights/lights.md).\n",
         device.name, device.driver, device.api, figures.rounds
     );

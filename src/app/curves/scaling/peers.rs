@@ -67,13 +67,13 @@ pub(super) const PEERS: [Peer; 5] = [
     },
     Peer {
         name: "three.js r187",
-        driver: "SwiftShader, in a browser",
+        driver: "SwiftShader",
         frames: &[wall(256, 391.0), wall(1024, 1077.0), wall(4096, 3377.0)],
         large: None,
     },
     Peer {
         name: "Babylon.js 9.34",
-        driver: "SwiftShader, in a browser",
+        driver: "SwiftShader",
         frames: &[wall(256, 331.0), wall(1024, 712.0), wall(4096, 2392.0)],
         large: None,
     },

@@ -3,7 +3,7 @@
 use super::super::plot::{Drawn, FONT, GRID, Plot, chart, ranges};
 use super::peers::PEERS;
 use super::sweeps::{LIGHTS, SWEEPS, Sweep};
-use super::{Figures, Growth, Point};
+use super::{Figures, Growth, Point, fitted};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -52,7 +52,7 @@ fn draw_panel<B: DrawingBackend>(
     let mut chart = chart(panel, sweep.name, ranges(all, LEAST), &axes)?;
     if let Some(growth) = growth {
         chart
-            .draw_series([PathElement::new(fitted(&own, growth.slope), FIT.stroke_width(5))])?
+            .draw_series([PathElement::new(line(points, growth.slope), FIT.stroke_width(9))])?
             .label(format!("slope {:.2}", growth.slope))
             .legend(|(x, y)| PathElement::new([(x, y), (x + 24, y)], FIT.stroke_width(5)));
     }
@@ -84,11 +84,10 @@ fn peers() -> Vec<(String, RGBColor, Places)> {
     PEERS.iter().zip(PEER_COLORS).map(one).collect()
 }
 
-/// The fitted line from the first place's to the last one's count; it goes through the mean of the logarithms.
-fn fitted(places: &Places, slope: f64) -> Places {
-    let count = places.len() as f64;
-    let mean = |of: fn(&(f64, f64)) -> f64| places.iter().map(|p| of(p).ln()).sum::<f64>() / count;
+/// The fitted line over the points that it is of; it goes through the mean of their logarithms.
+fn line(points: &[&Point], slope: f64) -> Places {
+    let count = fitted(points).count() as f64;
+    let mean = |of: fn((f64, f64)) -> f64| fitted(points).map(|p| of(p).ln()).sum::<f64>() / count;
     let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let ends = [places.first(), places.last()].into_iter().flatten();
-    ends.map(|p| (p.0, (y + slope * (p.0.ln() - x)).exp())).collect()
+    fitted(points).map(|p| (p.0, (y + slope * (p.0.ln() - x)).exp())).collect()
 }

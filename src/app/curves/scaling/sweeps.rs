@@ -40,7 +40,7 @@ pub(super) const SWEEPS: &[Sweep] = &[
     },
     Sweep {
         name: "area lights",
-        what: "a ball of gold on a plastic floor under rectangles side by side, all of which reach everything",
+        what: "a ball of gold on a plastic floor under rectangles side by side, the smaller the more there are, all of which reach everything",
         settings: &[1, 4, 16, 64, 256],
         make: panels,
         size: [160, 90],
