@@ -372,6 +372,10 @@ pub(super) enum Chapter {
     Features,
     /// Frame time by triangles, pixels, area lights and point lights, beside other programs
     Scaling,
+    /// Shadows of area lights and edges by samples a pixel
+    Samples,
+    /// What is stored and how: tables, halves; and what is not there
+    Choices,
 }
 
 #[derive(Debug, ClapArgs)]

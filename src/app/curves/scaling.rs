@@ -12,7 +12,7 @@ use super::super::measure::Figure;
 use super::super::report::{self, Origin};
 use super::plot as plots;
 use super::subject::{Subject, device_ms};
-use super::{progress, save_tables};
+use super::{progress, save_tables, slope};
 use crate::error::Result;
 use crate::gpu::{Device, DeviceInfo};
 use indicatif::ProgressBar;
@@ -84,16 +84,6 @@ impl Growth {
         let growth = Self { sweep, slope: slope(fitted(points)), ns_each };
         (growth.slope.is_finite() && ns_each.is_finite()).then_some(growth)
     }
-}
-
-/// Of the line through the logarithms of both coordinates that is nearest to them in squares of the second.
-fn slope(places: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
-    let logs = places.map(|(x, y)| (x.ln(), y.ln()));
-    let count = logs.clone().count() as f64;
-    let [x, y] =
-        [|p: (f64, f64)| p.0, |p: (f64, f64)| p.1].map(|of| logs.clone().map(of).sum::<f64>() / count);
-    let sums = logs.fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - x) * (p.1 - y), xx + (p.0 - x).powi(2)));
-    sums.0 / sums.1
 }
 
 /// Everything that was measured.
@@ -184,20 +174,4 @@ fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result
     let rows = |file: &mut _| page::csv(file, &figures.points);
     save_tables([csv, json, markdown], rows, &content, &page::page(device, figures))?;
     plots::save([svg, png], &plot::ScalingPlot(figures))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Of a power law, its exponent; of noise that the law's counts know nothing of, none of it.
-    #[test]
-    fn slopes() {
-        let law = |k: f64| (1..7).map(move |n| (10_f64.powi(n), 3.0 * 10_f64.powi(n).powf(k)));
-        for k in [0.0, 0.5, 1.0, 2.0] {
-            assert!((slope(law(k)) - k).abs() < 1e-12, "{k}");
-        }
-        let noisy = [(1.0, 2.0), (2.0, 1.0), (4.0, 1.0), (8.0, 2.0)];
-        assert!(slope(noisy.into_iter()).abs() < 1e-12);
-    }
 }

@@ -19,7 +19,7 @@ pub(super) struct Subject {
 }
 
 impl Subject {
-    /// Its first camera's frame, warmed up.
+    /// Its first camera's frame with the samples that it asks for, warmed up.
     pub(super) fn new(device: &Arc<Device>, scene: Scene) -> Result<Self> {
         let gpu_scene = Arc::new(GpuScene::new(device, &scene)?);
         let settings = FrameSettings::new(&scene.render, &scene.cameras[0]);
@@ -41,7 +41,7 @@ impl Subject {
         self.frame.render(&FrameInputs {
             camera: &self.scene.cameras[0],
             time: 0.0,
-            samples: 1,
+            samples: self.scene.render.samples,
             exposure: 0.0,
             split: false,
             progress: ProgressBar::hidden(),
