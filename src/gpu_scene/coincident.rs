@@ -1,12 +1,13 @@
 //! Triangles that lie exactly on others: light is added where depths are equal, so each place may be drawn once.
 
+use foldhash::fast::RandomState;
 use std::collections::HashMap;
 
 type Bits = [u32; 3];
 
 /// Places of triangles drawn so far, and the sides from which they are seen.
 #[derive(Default)]
-pub(super) struct Drawn(HashMap<[Bits; 3], [bool; 2]>);
+pub(super) struct Drawn(HashMap<[Bits; 3], [bool; 2], RandomState>);
 
 impl Drawn {
     /// Notes a triangle; false if one on the same place is already seen from the same side.

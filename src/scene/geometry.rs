@@ -1,5 +1,6 @@
 //! From loose triangles to meshes: transform, clean, give normals, share vertices.
 
+use foldhash::fast::RandomState;
 use std::collections::{HashMap, HashSet};
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
@@ -121,8 +122,8 @@ impl Triangle {
 /// Finds equal positions over all groups.
 #[derive(Default)]
 struct Welder {
-    index: HashMap<[u32; 3], u32>,
-    seen: HashSet<[u32; 3]>,
+    index: HashMap<[u32; 3], u32, RandomState>,
+    seen: HashSet<[u32; 3], RandomState>,
     /// Sum of unit face normals, weighted by angle, per position.
     sums: Vec<DVec3>,
 }
@@ -182,7 +183,7 @@ fn degenerate(corners: &[Corner; 3]) -> bool {
 /// Shares equal vertices.
 fn index(triangles: &[Triangle]) -> Mesh {
     let mut mesh = Mesh::default();
-    let mut known: HashMap<[u32; 8], u32> = HashMap::new();
+    let mut known: HashMap<[u32; 8], u32, RandomState> = HashMap::default();
     for triangle in triangles {
         let indices = triangle.corners.map(|corner| {
             let vertex = Vertex {

@@ -169,6 +169,82 @@ fn hard_cases() {
         assert!(own.clone().any(breaks), "{formula} is not hard");
         assert!(printed.contains(formula), "{printed}");
     }
+    let pictures = json["pictures"].as_array().unwrap();
+    assert!(pictures.len() >= 11, "{pictures:?}");
+    for picture in pictures {
+        assert_eq!(picture["not_finite"], 0, "{picture}");
+        let worst = picture["worst"].as_f64();
+        let [got, want] = [0, 1].map(|which| picture["largest"][which].as_f64().unwrap());
+        match picture["what"].as_str().unwrap() {
+            // Both evaluate the same lights in another order.
+            "clusters" => assert!(want > 0.0 && worst.unwrap() < 1e-4, "{picture}"),
+            // No firefly is many times the largest value that paths find, and where they find nothing, nothing is.
+            _ => assert!(worst.map_or(got == 0.0, |ratio| (0.2..5.0).contains(&ratio)), "{picture}"),
+        }
+    }
+}
+
+#[test]
+fn samples() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "samples", "--quick", "--validate"]);
+    let files = ["samples.csv", "samples.json", "samples.md", "samples.png", "samples.svg", "scene.toml"];
+    assert_eq!(folder.names(), files);
+    let json = folder.json("samples.json");
+    let points = json["points"].as_array().unwrap();
+    let csv = String::from_utf8(folder.read("samples.csv")).unwrap();
+    assert_eq!(csv.lines().count(), points.len() + 1);
+    for law in json["laws"].as_array().unwrap() {
+        // Independent samples would have −½; those of a pixel are better spread.
+        let exponent = law["exponent"].as_f64().unwrap();
+        assert!((-1.2..=-0.35).contains(&exponent), "{law}");
+    }
+    assert_eq!(json["laws"].as_array().unwrap().len(), 2);
+    for family in ["shadows", "unshadowed", "paths"] {
+        let last = points.iter().rfind(|point| point["family"] == family).unwrap();
+        assert!(last["bias"].as_f64().unwrap().abs() < 0.02, "{last}");
+        let error = last["error"].as_f64().unwrap();
+        assert!(error < if family == "unshadowed" { 0.01 } else { 0.1 }, "{last}");
+        assert!(points.iter().any(|point| point["family"] == family && point["samples"] == 1));
+    }
+    assert_eq!(points.iter().filter(|point| point["default"] == true).count(), 2);
+    assert!(printed.contains("paths, shadows"), "{printed}");
+}
+
+#[test]
+fn choices() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "choices", "--quick"]);
+    assert_eq!(folder.names(), ["choices.csv", "choices.json", "choices.md", "scene.toml"]);
+    let json = folder.json("choices.json");
+    let tables = json["tables"].as_array().unwrap();
+    for layer in ["metal", "plastic"] {
+        let of = |side: Option<u32>, format: &str| {
+            let found = tables.iter().find(|t| {
+                t["layer"] == layer && t["side"] == serde_json::json!(side) && t["format"] == format
+            });
+            found.and_then(|t| t["mean"].as_f64()).unwrap_or_else(|| panic!("{layer}, {side:?}, {format}"))
+        };
+        let [own, ships] = [of(None, "float"), of(Some(32), "float")];
+        // Fewer texels are worse, as many as ship are as good as own fits, and 16 bits as good as all.
+        assert!(
+            of(Some(4), "float") > of(Some(16), "float") && of(Some(16), "float") >= 0.999 * ships,
+            "{layer}"
+        );
+        assert!((own..1.1 * own).contains(&ships), "{layer}: {ships} for {own}");
+        // A code of 16 bits over the least albedo of a dielectric.
+        assert!((of(Some(32), "snorm16") - ships).abs() < 1.5e-5 / 0.04, "{layer}");
+        assert!(of(Some(32), "snorm8") > ships, "{layer}");
+    }
+    for texture in json["halves"].as_array().unwrap() {
+        // Half a unit in the last of 11 bits, but for what is below the least normal half.
+        let [mean, worst] = ["mean", "worst"].map(|key| texture[key].as_f64().unwrap());
+        assert!(mean <= 4.9e-4 && worst < 0.02, "{texture}");
+    }
+    for scene in json["cones"].as_array().unwrap() {
+        assert!((0.0..0.5).contains(&scene["behind"].as_f64().unwrap()), "{scene}");
+    }
+    assert!(printed.contains("own fits"), "{printed}");
 }
 
 #[test]
@@ -191,4 +267,42 @@ fn cost_of_features() {
             }
         }
     }
+}
+
+#[test]
+fn scaling() {
+    let folder = Folder::new();
+    let printed = folder.done(&["report", "--chapter", "scaling", "--quick", "--validate"]);
+    let files = ["scaling.csv", "scaling.json", "scaling.md", "scaling.png", "scaling.svg", "scene.toml"];
+    assert_eq!(folder.names(), files);
+    let json = folder.json("scaling.json");
+    let points = json["points"].as_array().unwrap();
+    let csv = String::from_utf8(folder.read("scaling.csv")).unwrap();
+    assert_eq!(csv.lines().count(), points.len() + 1);
+    let of = |sweep: &str, key: &str| -> Vec<f64> {
+        let own = points.iter().filter(|point| point["sweep"] == sweep);
+        own.map(|point| point[key].as_f64().unwrap()).collect()
+    };
+    assert_eq!(of("pixels", "count"), [3600.0, 14400.0]);
+    assert_eq!(of("area lights", "count"), [1.0, 4.0]);
+    assert_eq!(of("point lights", "count"), [0.0, 256.0]);
+    assert!(
+        of("triangles", "count").iter().zip([1e3, 3162.0]).all(|(n, want)| (n / want - 1.0).abs() < 0.05)
+    );
+    // Every panel reaches every surface, of which there are as many: but for the half of the ball that faces away from some.
+    let panels = of("area lights", "pairs_per_pixel");
+    assert!((3.0..=4.0).contains(&(panels[1] / panels[0])), "{panels:?}");
+    // The floor of the grid has the density of its lights, whatever the picture's size; without lights there are no pairs.
+    let pixels = of("pixels", "pairs_per_pixel");
+    assert!((0.5..1.5).contains(&(pixels[1] / pixels[0])), "{pixels:?}");
+    assert_eq!(of("point lights", "pairs_per_pixel")[0], 0.0);
+    for growth in json["growth"].as_array().unwrap() {
+        assert!(["slope", "ns_each"].iter().all(|key| growth[key].is_number()), "{growth}");
+        assert!(printed.contains(growth["sweep"].as_str().unwrap()), "{printed}");
+    }
+    let page = String::from_utf8(folder.read("scaling.md")).unwrap();
+    assert!(
+        page.contains("| Bevy 0.19.1, lavapipe, Mesa 25.0.7 |") && page.contains("## By triangles"),
+        "{page}"
+    );
 }

@@ -92,6 +92,12 @@ pub(in crate::app) enum Chapter {
     Hard,
     /// What each feature costs where it is used, and where it is not
     Features,
+    /// Frame time by triangles, pixels, area lights and point lights, beside other programs
+    Scaling,
+    /// Shadows of area lights and edges by samples a pixel
+    Samples,
+    /// What is stored and how: tables, halves; and what is not there
+    Choices,
 }
 
 #[derive(Debug, ClapArgs)]

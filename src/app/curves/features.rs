@@ -9,14 +9,12 @@ use super::super::load::{Load, Since};
 use super::super::measure::Figure;
 use super::super::report::Origin;
 use super::super::statistics::Ratio;
+use super::subject::Subject;
 use super::{progress, save_tables};
 use crate::error::Result;
-use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo};
-use crate::gpu_scene::GpuScene;
 use crate::passes::aov::Quantity;
-use crate::scene::{Scene, load_embedded};
-use indicatif::ProgressBar;
+use crate::scene::load_embedded;
 use rows::{FEATURES, Feature, Variant};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -36,8 +34,6 @@ struct Extent {
 
 const FULL: Extent = Extent { size: [160, 90], rounds: 60, step: 1 };
 const QUICK: Extent = Extent { size: [48, 27], rounds: 6, step: 4 };
-/// Frames before any is measured.
-const WARMUP: usize = 3;
 
 /// A feature and what it costs.
 #[derive(Serialize)]
@@ -80,48 +76,15 @@ pub(super) fn run(device: &Arc<Device>, quick: bool, out: &Path) -> Result<Strin
     Ok(page::summary(&figures.points))
 }
 
-/// A frame that is rendered again and again.
-struct Subject {
-    scene: Scene,
-    frame: Frame,
-    times: Vec<f64>,
-}
-
-impl Subject {
-    fn new(device: &Arc<Device>, variant: &Variant, size: [u32; 2]) -> Result<Self> {
-        let mut scene = load_embedded("feature", &variant.toml(), default_scene::FILES, &[])?;
-        scene.render.size = size;
-        let gpu_scene = Arc::new(GpuScene::new(device, &scene)?);
-        let settings = FrameSettings::new(&scene.render, &scene.cameras[0]);
-        let frame = Frame::new(device, &gpu_scene, settings)?;
-        let mut subject = Self { scene, frame, times: Vec::new() };
-        for _ in 0..WARMUP {
-            subject.render()?;
-        }
-        if variant.aov {
-            subject.frame.aov(Quantity::Normal)?;
-        }
-        Ok(subject)
+/// The frame of a variant, warmed up.
+fn subject(device: &Arc<Device>, variant: &Variant, size: [u32; 2]) -> Result<Subject> {
+    let mut scene = load_embedded("feature", &variant.toml(), default_scene::FILES, &[])?;
+    scene.render.size = size;
+    let subject = Subject::new(device, scene)?;
+    if variant.aov {
+        subject.frame.aov(Quantity::Normal)?;
     }
-
-    fn render(&mut self) -> Result<Timings> {
-        self.frame.render(&FrameInputs {
-            camera: &self.scene.cameras[0],
-            time: 0.0,
-            samples: 1,
-            exposure: 0.0,
-            split: false,
-            progress: ProgressBar::hidden(),
-        })
-    }
-
-    /// CPU time on a CPU device, device time on others that tell it.
-    fn measure(&mut self, device: &Device) -> Result<()> {
-        let taken = self.render()?;
-        let gpu: Option<f64> = taken.passes.iter().map(|pass| pass.gpu_ms).sum();
-        self.times.push(gpu.filter(|_| !device.is_cpu()).unwrap_or(taken.cpu_ms));
-        Ok(())
-    }
+    Ok(subject)
 }
 
 fn measure(device: &Arc<Device>, extent: Extent, quick: bool) -> Result<Figures> {
@@ -142,22 +105,25 @@ fn point(device: &Arc<Device>, feature: &Feature, extent: Extent) -> Result<Poin
     let variants = [Some(&feature.base), feature.unused.as_ref(), feature.used.as_ref()];
     let mut subjects = Vec::new();
     for variant in variants {
-        subjects.push(variant.map(|variant| Subject::new(device, variant, extent.size)).transpose()?);
+        subjects.push(variant.map(|variant| subject(device, variant, extent.size)).transpose()?);
     }
     for round in 0..extent.rounds {
         // Whoever comes after another finds the caches in its state: all take turns at each place.
         for place in 0..subjects.len() {
             let index = (place + round) % subjects.len();
-            subjects[index].iter_mut().try_for_each(|subject| subject.measure(device))?;
+            subjects[index].iter_mut().try_for_each(Subject::measure)?;
         }
     }
-    let times = |index: usize| subjects[index].as_ref().map_or(&[][..], |subject| &subject.times);
-    let ratio = |index: usize| Ratio::of(times(index), times(0));
+    let times = |index: usize| {
+        subjects[index].as_ref().map_or_else(Vec::new, |subject: &Subject| subject.times(device))
+    };
+    let base = times(0);
+    let ratio = |index: usize| Ratio::of(&times(index), &base);
     Ok(Point {
         feature: feature.name,
         unused: feature.unused.as_ref().map(|variant| variant.what),
         used: feature.used.as_ref().map(|variant| variant.what),
-        base_ms: Figure::of(times(0)).unwrap_or_default(),
+        base_ms: Figure::of(&base).unwrap_or_default(),
         unused_ratio: ratio(1),
         used_ratio: ratio(2),
     })

@@ -1,9 +1,11 @@
 //! The chapter on hard cases: formulas that break in float32, as they are usually written and as they ship, on the
-//! processor and on the device, against double precision.
+//! processor and on the device, against double precision; and pictures on which clusters and virtual lights break.
 
 mod cases;
 mod formulas;
 mod page;
+mod pictures;
+mod worlds;
 
 use super::super::report::Origin;
 use super::{progress, save_tables};
@@ -14,9 +16,11 @@ use crate::reference::sampler::Random;
 use crate::shared::{HardProbeRow, SPEC_HARD_FORMULA};
 use formulas::{FORMULAS, Formula, Slots};
 use glam::{DVec4, Vec4};
+use pictures::Picture;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use worlds::WORLDS;
 
 /// What is written.
 pub(super) const FILES: [&str; 3] = ["hard.csv", "hard.json", "hard.md"];
@@ -78,21 +82,23 @@ struct File<'a> {
     quick: bool,
     floor: f64,
     points: &'a [Point],
+    pictures: &'a [Picture],
 }
 
 /// Measures and writes; what is printed.
 pub(super) fn run(device: &Arc<Device>, quick: bool, out: &Path) -> Result<String> {
-    let bar = progress(FORMULAS.len());
+    let bar = progress(FORMULAS.len() + WORLDS.len());
     let mut points = Vec::new();
     for formula in FORMULAS {
         bar.set_message(formula.name);
         points.extend(judge(device, formula, if quick { QUICK } else { FULL })?);
         bar.inc(1);
     }
+    let pictures = pictures::judge(device, &bar)?;
     bar.finish_and_clear();
     device.require_silence()?;
-    write(&FILES.map(|name| out.join(name)), device.info(), &points, quick)?;
-    Ok(page::summary(&points))
+    write(&FILES.map(|name| out.join(name)), device.info(), (&points, &pictures), quick)?;
+    Ok(page::summary(&points, &pictures))
 }
 
 fn judge(device: &Arc<Device>, formula: &Formula, rows: usize) -> Result<Vec<Point>> {
@@ -133,11 +139,16 @@ impl Formula {
 }
 
 /// Writes [`FILES`], each to its path.
-fn write(paths: &[PathBuf; 3], device: &DeviceInfo, points: &[Point], quick: bool) -> Result<()> {
+fn write(
+    paths: &[PathBuf; 3],
+    device: &DeviceInfo,
+    (points, pictures): (&[Point], &[Picture]),
+    quick: bool,
+) -> Result<()> {
     let [csv, json, markdown] = paths;
-    let content = File { origin: Origin::of(device), quick, floor: FLOOR, points };
+    let content = File { origin: Origin::of(device), quick, floor: FLOOR, points, pictures };
     let rows = |file: &mut _| page::csv(file, points);
-    save_tables([csv, json, markdown], rows, &content, &page::page(device, points, quick))
+    save_tables([csv, json, markdown], rows, &content, &page::page(device, (points, pictures), quick))
 }
 
 #[cfg(test)]

@@ -1,12 +1,16 @@
 //! `amas report`: speed against error, measured on the device, a chapter a module.
 
 mod area;
+mod choices;
 mod features;
 mod hard;
 mod indirect;
 mod letters;
 mod lights;
 mod plot;
+mod samples;
+mod scaling;
+mod subject;
 
 use super::args::{Chapter, ReportOptions};
 use super::outputs::check_folder;
@@ -30,12 +34,15 @@ struct Row {
 }
 
 /// Every chapter, in the order in which they run.
-const CHAPTERS: [Row; 5] = [
+const CHAPTERS: [Row; 8] = [
     Row { chapter: Chapter::Area, files: &area::FILES, run: area::run },
     Row { chapter: Chapter::Lights, files: &lights::FILES, run: lights::run },
     Row { chapter: Chapter::Indirect, files: &indirect::FILES, run: indirect::run },
     Row { chapter: Chapter::Hard, files: &hard::FILES, run: hard::run },
     Row { chapter: Chapter::Features, files: &features::FILES, run: features::run },
+    Row { chapter: Chapter::Scaling, files: &scaling::FILES, run: scaling::run },
+    Row { chapter: Chapter::Samples, files: &samples::FILES, run: samples::run },
+    Row { chapter: Chapter::Choices, files: &choices::FILES, run: choices::run },
 ];
 
 pub(super) fn run(options: &ReportOptions) -> Result<()> {
@@ -69,5 +76,31 @@ fn progress(work: usize) -> ProgressBar {
     match ProgressStyle::with_template("report {bar:40} {percent} % {msg}, {eta} left") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
+    }
+}
+
+/// Of the line through the logarithms of both coordinates that is nearest to them in squares of the second.
+fn slope(places: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    let logs = places.map(|(x, y)| (x.ln(), y.ln()));
+    let count = logs.clone().count() as f64;
+    let [x, y] =
+        [|p: (f64, f64)| p.0, |p: (f64, f64)| p.1].map(|of| logs.clone().map(of).sum::<f64>() / count);
+    let sums = logs.fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - x) * (p.1 - y), xx + (p.0 - x).powi(2)));
+    sums.0 / sums.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a power law, its exponent; of what falls and rises alike, none.
+    #[test]
+    fn slopes() {
+        let law = |k: f64| (1..7).map(move |n| (10_f64.powi(n), 3.0 * 10_f64.powi(n).powf(k)));
+        for k in [0.0, 0.5, 1.0, 2.0] {
+            assert!((slope(law(k)) - k).abs() < 1e-12, "{k}");
+        }
+        let noisy = [(1.0, 2.0), (2.0, 1.0), (4.0, 1.0), (8.0, 2.0)];
+        assert!(slope(noisy.into_iter()).abs() < 1e-12);
     }
 }

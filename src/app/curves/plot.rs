@@ -4,6 +4,7 @@ use super::letters::Lettered;
 use crate::error::{Error, Result};
 use crate::image::{save_png8, write_atomically};
 use plotters::coord::Shift;
+use plotters::coord::combinators::{LogCoord, WithKeyPoints};
 use plotters::prelude::*;
 use std::io::{self, Write};
 use std::ops::Range;
@@ -11,9 +12,17 @@ use std::path::{Path, PathBuf};
 
 /// A font that vector pictures leave to the viewer, and bitmaps replace by their own.
 pub(super) const FONT: (&str, i32) = ("monospace", 13);
-pub(super) const TITLE: (&str, i32) = ("monospace", 18);
+const TITLE: (&str, i32) = ("monospace", 18);
 
-pub(super) type Drawn<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+/// Lines of the mesh: light, bold.
+pub(super) const GRID: [RGBColor; 2] = [RGBColor(240, 240, 240), RGBColor(215, 215, 215)];
+
+pub(super) type Drawn<B, T = ()> =
+    std::result::Result<T, DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+/// Logarithmic.
+type Axis = WithKeyPoints<LogCoord<f64>>;
+/// Both axes logarithmic.
+pub(super) type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
 
 /// What is drawn.
 pub(super) trait Plot {
@@ -99,15 +108,53 @@ pub(super) fn draw_labels<B: DrawingBackend>(root: &DrawingArea<B, Shift>, label
 
 /// Where a logarithmic axis has numbers: at powers of ten, and where it has less than two of these at their doubles and
 /// fivefolds too.
-pub(super) fn ticks(range: &Range<f64>) -> Vec<f64> {
+fn ticks(range: &Range<f64>) -> Vec<f64> {
     let decades = range.start.log10().floor() as i32..=range.end.log10().floor() as i32;
     let multiples: &[f64] = if range.end < 100.0 * range.start { &[1.0, 2.0, 5.0] } else { &[1.0] };
     let all = decades.flat_map(|decade| multiples.iter().map(move |multiple| multiple * 10_f64.powi(decade)));
     all.filter(|tick| range.contains(tick)).collect()
 }
 
+/// A chart with nothing but its axes, of which `axes` says what they are.
+pub(super) fn chart<'a, B: DrawingBackend>(
+    panel: &'a DrawingArea<B, Shift>,
+    title: &str,
+    [across, up]: [Range<f64>; 2],
+    axes: &str,
+) -> Drawn<B, Chart<'a, B>> {
+    let mut chart = ChartBuilder::on(panel)
+        .margin(16)
+        .caption(title, TITLE)
+        .x_label_area_size(46)
+        .y_label_area_size(64)
+        .build_cartesian_2d(
+            across.clone().log_scale().with_key_points(ticks(&across)),
+            up.clone().log_scale().with_key_points(ticks(&up)),
+        )?;
+    chart
+        .configure_mesh()
+        .label_style(FONT)
+        .x_desc(axes)
+        .x_label_formatter(&|value| number(*value))
+        .y_label_formatter(&|value| number(*value))
+        .light_line_style(GRID[0])
+        .bold_line_style(GRID[1])
+        .draw()?;
+    Ok(chart)
+}
+
+/// Of axes with room for all of these places, whose coordinates are `least` at least.
+pub(super) fn ranges(places: impl Iterator<Item = (f64, f64)>, least: f64) -> [Range<f64>; 2] {
+    let none = [(f64::MAX, least); 2];
+    let ends = places.fold(none, |ends, (x, y)| {
+        let wider = |(low, high): (f64, f64), at: f64| (low.min(at.max(least)), high.max(at));
+        [wider(ends[0], x), wider(ends[1], y)]
+    });
+    ends.map(|(low, high)| low.min(high) / 1.6..high * 1.6)
+}
+
 /// Without a tail of digits.
-pub(super) fn number(value: f64) -> String {
+fn number(value: f64) -> String {
     let digits = (-value.log10().floor()).max(0.0) as usize;
     format!("{value:.digits$}")
 }

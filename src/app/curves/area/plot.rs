@@ -1,6 +1,6 @@
 //! The plot: error over time, both logarithmic, one panel a band.
 
-use super::super::plot::{Drawn, FONT, Label, Plot, TITLE, draw_labels, number};
+use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges};
 use super::configurations::BANDS;
 use super::figures::Point;
 use super::tiers::Family;
@@ -17,6 +17,11 @@ const FAMILIES: [(Family, RGBColor); 7] = [
     (Family::AreaSamples, RGBColor(220, 120, 0)),
     (Family::ProxySamples, RGBColor(120, 90, 50)),
 ];
+
+const AXES: &str =
+    "across: ns per light and pixel; up: mean relative error; ringed: nothing is both faster and more exact";
+/// Of times and errors, for their logarithms.
+const LEAST: f64 = 1e-9;
 
 /// What the axis takes at a panel's left.
 const MARGIN: i32 = 80;
@@ -35,35 +40,17 @@ impl Plot for AreaPlot<'_> {
 fn draw<B: DrawingBackend>(root: &DrawingArea<B, Shift>, points: &[Point]) -> Drawn<B> {
     root.fill(&WHITE)?;
     let summary: Vec<&Point> = points.iter().filter(|p| p.summary()).collect();
-    let range = |value: &dyn Fn(&Point) -> f64| {
-        let values = summary.iter().map(|p| value(p).max(1e-9));
-        let (least, most) = values.fold((f64::MAX, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
-        [least / 1.6, most * 1.6]
-    };
     let mut labels = Vec::new();
     let panels = root.split_evenly((1, BANDS.len()));
     let width_of_panel = (SIZE.0 as usize / BANDS.len()) as i32;
     for ((band, alphas), panel) in BANDS.into_iter().zip(&panels) {
-        let ([x0, x1], [y0, y1]) = (range(&|p| p.ns), range(&|p| p.error));
         let alphas: Vec<_> = alphas.iter().map(f64::to_string).collect();
-        let mut chart = ChartBuilder::on(panel)
-            .margin(16)
-            .caption(format!("{band}: alpha {}", alphas.join(", ")), TITLE)
-            .x_label_area_size(46)
-            .y_label_area_size(64)
-            // Room for the last labels.
-            .build_cartesian_2d((x0..x1 * 2.0).log_scale(), (y0..y1).log_scale())?;
-        chart
-            .configure_mesh()
-            .label_style(FONT)
-            .x_desc("across: ns per light and pixel; up: mean relative error; ringed: nothing is both faster and more exact")
-            .x_label_formatter(&|value| number(*value))
-            .y_label_formatter(&|value| number(*value))
-            .light_line_style(RGBColor(240, 240, 240))
-            .bold_line_style(RGBColor(215, 215, 215))
-            .draw()?;
+        let at = |p: &Point| (p.ns.max(LEAST), p.error.max(LEAST));
+        let [ns, error] = ranges(summary.iter().map(|p| at(p)), LEAST);
+        // Room for the last labels.
+        let wider = [ns.start..2.0 * ns.end, error];
+        let mut chart = chart(panel, &format!("{band}: alpha {}", alphas.join(", ")), wider, AXES)?;
         let own: Vec<&&Point> = summary.iter().filter(|p| p.band == band).collect();
-        let at = |p: &Point| (p.ns, p.error.max(1e-9));
         let mut front: Vec<_> = own.iter().filter(|p| p.pareto).map(|p| at(p)).collect();
         front.sort_by(|a, b| a.0.total_cmp(&b.0));
         chart.draw_series([PathElement::new(front.clone(), RGBColor(190, 190, 190).stroke_width(5))])?;

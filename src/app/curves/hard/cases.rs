@@ -223,4 +223,27 @@ pub(super) const FORM_FACTOR: &[Case] = &[
         },
         1e-9,
     ),
+    case(
+        "wall of 2 × 1 that stands 1e-4 to 1 away",
+        |random| {
+            let away = ratio(random, 1e-4, 1.0);
+            let (sin, cos) = (std::f64::consts::TAU * random.next()).sin_cos();
+            let (out, along) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
+            let [a, b] = [along - away * out, -along - away * out];
+            [b, a, a + DVec3::Z, b + DVec3::Z].map(|corner| corner.as_vec3().extend(0.0).to_array())
+        },
+        1e-6,
+    ),
+    case(
+        "sliver, 10 to 10,000 times as long as wide, overhead",
+        |random| {
+            let (distance, aspect) = (ratio(random, 0.1, 10.0), ratio(random, 10.0, 1e4));
+            let turn = DVec3::X * (std::f64::consts::TAU * random.next()).cos();
+            let u = distance * turn.with_y((1.0 - turn.x * turn.x).sqrt());
+            let v = DVec3::Z.cross(u) / aspect;
+            [u + v, u - v, -u - v, v - u]
+                .map(|corner| (distance * DVec3::Z + corner).as_vec3().extend(0.0).to_array())
+        },
+        1e-6,
+    ),
 ];

@@ -1,6 +1,7 @@
 //! The chapter on hard cases as text.
 
 use super::formulas::FORMULAS;
+use super::pictures::Picture;
 use super::{Point, Verdict};
 use crate::gpu::DeviceInfo;
 use std::fmt::Write as _;
@@ -37,7 +38,7 @@ fn cell(verdict: &Verdict) -> String {
 }
 
 /// What is printed.
-pub(super) fn summary(points: &[Point]) -> String {
+pub(super) fn summary(points: &[Point], pictures: &[Picture]) -> String {
     let mut text =
         format!("{:<28}{:<52}{:>22}  {:>22}\n", "hard case", "", "usual, on the device", "shipped");
     for p in points {
@@ -45,17 +46,26 @@ pub(super) fn summary(points: &[Point]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{:<28}{:<52}{naive:>22}  {shipped:>22}", p.formula, p.case);
     }
+    for p in pictures {
+        let _ = writeln!(text, "{:<16}{:<64}{:>22}  {:>22}", p.what, p.case, "", of_picture(p));
+    }
     text.trim_end().to_owned()
 }
 
-pub(super) fn page(device: &DeviceInfo, points: &[Point], quick: bool) -> String {
+/// Worst error or ratio, and how many values are not finite.
+fn of_picture(p: &Picture) -> String {
+    let worst = p.worst.unwrap_or(p.largest[0]);
+    cell(&Verdict { worst, mean: 0.0, not_finite: p.not_finite })
+}
+
+pub(super) fn page(device: &DeviceInfo, (points, pictures): (&[Point], &[Picture]), quick: bool) -> String {
     let commit = option_env!("AMAS_COMMIT").unwrap_or("an unknown commit");
     let option = if quick { " --quick" } else { "" };
     let rows = points.first().map_or(0, |p| p.rows);
     let mut text = format!(
         "# Hard cases in float32\n\n\
-         Written by `amas report --chapter hard{option} --out DIR` at {commit} on {} ({}, Vulkan {}). `hard.csv` and \
-         `hard.json` have every figure. Nothing here is timed.\n\n\
+         Written by `amas report --chapter hard{option} --out DIR` at {commit} on {} ({}, Vulkan {}). `hard.csv` has the \
+         formulas, `hard.json` every figure. Nothing here is timed.\n\n\
          Each formula as it is usually written and as it ships in `glsl/lib/`, on {rows} random inputs of each kind: worst \
          relative error against double precision, and how many values were infinite or no numbers (NaN). *Processor* is \
          float32 in Rust, *device* a compute shader (`glsl/probe/hard.comp`) that includes what ships unchanged. Directions \
@@ -83,5 +93,29 @@ pub(super) fn page(device: &DeviceInfo, points: &[Point], quick: bool) -> String
         let (usual, shipped) = (escaped(formula.naive_text), escaped(formula.shipped_text));
         let _ = writeln!(text, "| {} | {usual} | {shipped} |", formula.name);
     }
+    of_pictures(&mut text, pictures);
     text
+}
+
+fn of_pictures(text: &mut String, pictures: &[Picture]) {
+    text.push_str(
+        "\n## Whole pictures\n\n\
+         *Clusters*: worst relative error of the picture with light lists against that with every light on every pixel, of \
+         the same program; values below 0.1 % of the mean are judged by that. *Gathered light* of two rounds of 256 virtual \
+         lights: largest value over the largest of paths in double precision, 256 a pixel, where 1 is right and fireflies are \
+         many times that; where paths bring nothing, the largest value itself.\n\n\
+         | what | scene | worst | largest value | of the reference |\n| --- | --- | --- | --- | --- |\n",
+    );
+    for p in pictures {
+        let worst = match p.worst {
+            Some(_) if p.what == "clusters" => of_picture(p),
+            Some(ratio) => {
+                format!("× {ratio:.2}{}", of_picture(p).split_once(',').map_or("", |(_, nan)| nan))
+            }
+            None => of_picture(p),
+        };
+        let [got, want] = p.largest;
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "| {} | {} | {worst} | {got:.3e} | {want:.3e} |", p.what, p.case);
+    }
 }

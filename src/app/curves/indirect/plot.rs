@@ -1,6 +1,6 @@
 //! The plot: error over seconds, both logarithmic; the estimated error over the true one beside it.
 
-use super::super::plot::{Drawn, FONT, Plot, TITLE, number};
+use super::super::plot::{Drawn, FONT, GRID, Plot, chart, ranges};
 use super::figures::{Family, Point};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -22,7 +22,6 @@ const GATHERED: [RGBColor; 5] = [
     RGBColor(0, 0, 60),
 ];
 const FRONT: RGBColor = RGBColor(225, 225, 225);
-const GRID: [RGBColor; 2] = [RGBColor(240, 240, 240), RGBColor(215, 215, 215)];
 /// Of the error; smaller ones are the truth's noise.
 const LEAST: f64 = 1e-4;
 
@@ -64,31 +63,11 @@ fn curves(points: &[Point]) -> Vec<(RGBColor, String, Vec<&Point>)> {
     styled.collect()
 }
 
-fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
-    let (least, most) = values.fold((f64::MAX, LEAST), |(least, most), x| (least.min(x), most.max(x)));
-    least.min(most) / 1.6..most * 1.6
-}
-
 fn errors<B: DrawingBackend>(panel: &DrawingArea<B, Shift>, points: &[Point]) -> Drawn<B> {
     let at = |p: &Point| (p.cpu_s.median, p.error.max(LEAST));
-    let mut chart = ChartBuilder::on(panel)
-        .margin(16)
-        .caption("light by way of other surfaces", TITLE)
-        .x_label_area_size(46)
-        .y_label_area_size(64)
-        .build_cartesian_2d(
-            range(points.iter().map(|p| at(p).0)).log_scale(),
-            range(points.iter().map(|p| at(p).1)).log_scale(),
-        )?;
-    chart
-        .configure_mesh()
-        .label_style(FONT)
-        .x_desc("across: CPU seconds; up: RMS error over the mean; grey: the front; ringed: the default")
-        .x_label_formatter(&|value| number(*value))
-        .y_label_formatter(&|value| number(*value))
-        .light_line_style(GRID[0])
-        .bold_line_style(GRID[1])
-        .draw()?;
+    let ranges = ranges(points.iter().map(at), LEAST);
+    let axes = "across: CPU seconds; up: RMS error over the mean; grey: the front; ringed: the default";
+    let mut chart = chart(panel, "light by way of other surfaces", ranges, axes)?;
     let mut front: Vec<_> = points.iter().filter(|p| p.pareto).map(at).collect();
     front.sort_by(|a, b| a.0.total_cmp(&b.0));
     chart.draw_series([PathElement::new(front, FRONT.stroke_width(8))])?;
@@ -114,21 +93,8 @@ fn errors<B: DrawingBackend>(panel: &DrawingArea<B, Shift>, points: &[Point]) ->
 fn estimates<B: DrawingBackend>(panel: &DrawingArea<B, Shift>, points: &[Point]) -> Drawn<B> {
     let most = points.iter().map(|p| p.rounds).max().unwrap_or(1);
     let ratio = |p: &Point| p.estimate.map(|estimate| (f64::from(p.rounds), estimate / p.error.max(LEAST)));
-    let mut chart = ChartBuilder::on(panel)
-        .margin(16)
-        .caption("estimated over true error", TITLE)
-        .x_label_area_size(46)
-        .y_label_area_size(64)
-        .build_cartesian_2d((1.6..f64::from(most) * 1.25).log_scale(), (0.25..4.0).log_scale())?;
-    chart
-        .configure_mesh()
-        .label_style(FONT)
-        .x_desc("across: rounds; up: ratio")
-        .x_label_formatter(&|value| number(*value))
-        .y_label_formatter(&|value| number(*value))
-        .light_line_style(GRID[0])
-        .bold_line_style(GRID[1])
-        .draw()?;
+    let ranges = [1.6..f64::from(most) * 1.25, 0.25..4.0];
+    let mut chart = chart(panel, "estimated over true error", ranges, "across: rounds; up: ratio")?;
     chart.draw_series([PathElement::new(
         [(1.6, 1.0), (f64::from(most) * 1.25, 1.0)],
         BLACK.stroke_width(1),

@@ -1,7 +1,7 @@
 //! The plot: error over time for the two knobs, time over the number of lights; all logarithmic. The order of the lights has no
 //! error to plot.
 
-use super::super::plot::{Drawn, FONT, Label, Plot, TITLE, draw_labels, number, ticks};
+use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges};
 use super::Point;
 use super::sweeps::{GROWTH, ORDER, SWEEPS};
 use plotters::coord::Shift;
@@ -11,7 +11,6 @@ use plotters::prelude::*;
 pub(super) struct LightsPlot<'a>(pub(super) &'a [Point]);
 
 const LINE: RGBColor = RGBColor(30, 90, 200);
-const GRID: RGBColor = RGBColor(215, 215, 215);
 /// Errors below this are rounding.
 const LEAST_ERROR: f64 = 1e-7;
 
@@ -49,29 +48,8 @@ fn draw_panel<B: DrawingBackend>(
     axes: &str,
     points: &[((f64, f64), &str)],
 ) -> Result<Vec<Label>, DrawingAreaErrorKind<B::ErrorType>> {
-    let range = |value: fn(&(f64, f64)) -> f64| {
-        let values = points.iter().map(|(at, _)| value(at).max(LEAST_ERROR));
-        let (least, most) = values.fold((f64::MAX, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
-        least / 1.6..most.max(least * 1.1) * 1.6
-    };
-    let (x, y) = (range(|at| at.0), range(|at| at.1));
-    let mut chart = ChartBuilder::on(panel)
-        .margin(16)
-        .caption(title, TITLE)
-        .x_label_area_size(46)
-        .y_label_area_size(64)
-        .build_cartesian_2d(
-            x.clone().log_scale().with_key_points(ticks(&x)),
-            y.clone().log_scale().with_key_points(ticks(&y)),
-        )?;
-    chart
-        .configure_mesh()
-        .label_style(FONT)
-        .x_desc(axes)
-        .x_label_formatter(&|value| number(*value))
-        .y_label_formatter(&|value| number(*value))
-        .bold_line_style(GRID)
-        .draw()?;
+    let ranges = ranges(points.iter().map(|(at, _)| *at), LEAST_ERROR);
+    let mut chart = chart(panel, title, ranges, axes)?;
     chart.draw_series([PathElement::new(
         points.iter().map(|(at, _)| *at).collect::<Vec<_>>(),
         LINE.stroke_width(1),
