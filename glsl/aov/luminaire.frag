@@ -1,4 +1,5 @@
-// One arbitrary output variable of a light that is seen. It has no material: -1.
+// One arbitrary output variable of a light that is seen. It has no material: -1. Of what surfaces in clusters have, it has
+// as much as a pixel without one.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared.glsl"
@@ -23,7 +24,9 @@ void main() {
         value = vec4(vec3(0.0), 1.0);
     } else if (AOV == AOV_WIREFRAME) {
         value = vec4(vec3(edge_distance(normal)), 1.0);
-    } else {
+    } else if (AOV == AOV_COVERAGE) {
         value = vec4(1.0);
+    } else {
+        value = vec4(0.0);
     }
 }

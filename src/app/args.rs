@@ -2,6 +2,7 @@
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// A clustered-forward renderer for very many lights, with every picture's error known.
 ///
@@ -24,7 +25,28 @@ pub(super) enum Command {
   amas render
   amas render scene.toml -o picture.png -o picture.exr --report report.json
   amas render scene.toml --frames 0..60 -o frame_%04d.png
-  amas render scene.toml --set samples=16 --aov normal=normal.exr -o picture.png")]
+  amas render scene.toml --set samples=16 --aov normal=normal.exr -o picture.png
+
+Output variables, of what is seen through the pixel's centre; 0 where nothing is. In red, green and blue, or all the same:
+  position     metres; no .png
+  normal       unit, turned to the viewer
+  depth        distance along the view, metres
+  material     its number, from 0; -1 a light, -2 nothing
+  albedo       what the material's diffuse part reflects; of metal, what it reflects at normal incidence
+  roughness    alpha of the specular lobe: its mean, along the tangent, along the bitangent; 1 without such a lobe
+  light_count  lights evaluated
+  cluster      its number, from 0; -1 a light, or nothing
+  slice        of the depth, from 0; -1 a light, or nothing
+  pair_ratio   lights of the list over those within range, then both numbers; 1 where none is within range
+  folded       lights beyond the cap of the list, then those of the list
+  light_error  estimated relative error of the many lights in the cluster: all, of folded lists, of nodes without a range
+  ltc_bound    what area lights' closed form may be off by, as a share of the specular lobe
+  wireframe    pixels to the nearest edge of a triangle
+  direct       light of the scene's own lights, without the background; no .png
+  indirect     light that comes by way of other surfaces; no .png
+
+Of the table that is printed, device ms is how long the device took, CPU ms the time of all threads of the process. The last
+row has the time that passed, and CPU ms, for the whole picture.")]
     Render(RenderOptions),
     /// Show a scene in a window and fly through it
     #[command(after_help = "Keys, letters by their place on the keyboard:
@@ -105,7 +127,7 @@ impl Default for Command {
             frames: None,
             report: None,
             aov: Vec::new(),
-            refine: RefineOptions { indirect_error: INDIRECT_ERROR, time_limit: None },
+            refine: RefineOptions { indirect_error: None, time_limit: None },
         })
     }
 }
@@ -125,11 +147,11 @@ pub(super) struct SceneOptions {
     /// Scene file [default: the embedded scene]
     pub(super) scene: Option<PathBuf>,
     /// Picture size in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
     pub(super) size: Option<[u32; 2]>,
     /// Override a key of [render], such as render.samples=16; render.front_end=fragment, compute or auto (compute on
     /// software devices, fragments on others) says what shades the lights in lists
-    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_pair)]
+    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_set)]
     pub(super) set: Vec<(String, String)>,
 }
 
@@ -145,18 +167,15 @@ pub(super) struct RenderOptions {
     /// Camera by name [default: the first]
     #[arg(long, value_name = "NAME")]
     pub(super) camera: Option<String>,
-    /// Frames A up to, not including, B, 30 a second: the camera on its path, lights that move on theirs; %04d in FILE is the frame
-    #[arg(long, value_name = "A..B", value_parser = parse_range)]
+    /// Frames A up to, not including, B, 30 a second: the camera on its path, lights that move on theirs; %04d in FILE is the
+    /// frame's number in four digits, %d in as many as it has
+    #[arg(long, value_name = "A..B", value_parser = parse_range, allow_hyphen_values = true)]
     pub(super) frames: Option<std::ops::Range<u32>>,
     /// Report as JSON; its pairs.area_saved counts what the clusters' masks spared of area lights
     #[arg(long, value_name = "FILE.json")]
     pub(super) report: Option<PathBuf>,
-    /// Output variable, several times: position, normal, material (-1: a light that is seen, -2: nothing), albedo, roughness
-    /// (alpha), depth (metres), light_count, cluster, slice, pair_ratio (lights evaluated over those within range), folded
-    /// (lights beyond the cap of the list), light_error (estimated, relative), ltc_bound (what an area light's closed form
-    /// may be off by), wireframe (pixels to the nearest edge of a triangle), direct or indirect; numbers in .exr or .pfm,
-    /// colours in .png
-    #[arg(long, value_name = "NAME=FILE", value_parser = parse_pair)]
+    /// Output variable, several times: numbers in .exr or .pfm, colours in .png; the names are listed below
+    #[arg(long, value_name = "NAME=FILE", value_parser = parse_aov)]
     pub(super) aov: Vec<(String, String)>,
     #[command(flatten)]
     pub(super) refine: RefineOptions,
@@ -168,25 +187,25 @@ pub(super) const INDIRECT_ERROR: f64 = 0.02;
 #[derive(Clone, Debug, ClapArgs)]
 pub(super) struct RefineOptions {
     /// Refine indirect light and the shadows of point lights until the picture's estimated error, relative to its mean, is
-    /// below E
-    #[arg(long, value_name = "E", default_value_t = INDIRECT_ERROR, value_parser = parse_share)]
-    pub(super) indirect_error: f64,
-    /// Or until S seconds have passed, for each picture
-    #[arg(long, value_name = "S", value_parser = parse_seconds)]
+    /// below E [default: 0.02]
+    #[arg(long, value_name = "E", value_parser = parse_share, allow_negative_numbers = true)]
+    pub(super) indirect_error: Option<f64>,
+    /// Or until S seconds of gathering have passed, for each picture; they begin when its other light is there
+    #[arg(long, value_name = "S", value_parser = parse_seconds, allow_negative_numbers = true)]
     pub(super) time_limit: Option<f64>,
 }
 
 fn parse_share(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(share) if share > 0.0 && share < f64::INFINITY => Ok(share),
-        _ => Err("expected a number above 0, such as 0.02".into()),
+        _ => Err(remedy("this is no share above 0", "give a number above 0, such as 0.02")),
     }
 }
 
 fn parse_seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(seconds) if (0.0..1e9).contains(&seconds) => Ok(seconds),
-        _ => Err("expected seconds, such as 30".into()),
+        _ => Err(remedy("these are no seconds from 0 to 1e9", "give a number, such as 30")),
     }
 }
 
@@ -200,7 +219,7 @@ pub(super) struct ViewOptions {
     #[arg(long, value_name = "NAME")]
     pub(super) camera: Option<String>,
     /// Close after N pictures, a sample each, rendered one after the other
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub(super) frames: Option<u32>,
     /// Use high dynamic range where the display offers it: scRGB or HDR10, white at 203 cd/m²
     #[arg(long)]
@@ -227,28 +246,28 @@ pub(super) struct ReferenceOptions {
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: PathBuf,
     /// Rays a pixel [default: the scene's samples]; 1 goes through its centre
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
     pub(super) spp: Option<u32>,
     /// Which light
     #[arg(long, value_enum, default_value = "direct")]
     pub(super) integrator: IntegratorName,
     /// Seed of the random numbers
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole::<u64>, allow_negative_numbers = true)]
     pub(super) seed: u64,
     /// Camera by name [default: the first]
     #[arg(long, value_name = "NAME")]
     pub(super) camera: Option<String>,
     /// Frame of `amas render --frames`, 30 a second: the camera on its path, lights that move on theirs
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = parse_whole::<u32>, allow_negative_numbers = true)]
     pub(super) frame: Option<u32>,
     /// Relative standard error at which a pixel's area lights are done
-    #[arg(long, value_name = "E", default_value_t = 1e-3, value_parser = parse_tolerance)]
+    #[arg(long, value_name = "E", default_value_t = 1e-3, value_parser = parse_tolerance, allow_negative_numbers = true)]
     pub(super) tolerance: f64,
-    /// Paths of each ray, for --integrator path
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..))]
-    pub(super) paths: u32,
+    /// Paths of each ray, for --integrator path [default: 64]
+    #[arg(long, value_name = "N", value_parser = parse_count, allow_negative_numbers = true)]
+    pub(super) paths: Option<u32>,
     /// Most bounces between the surface seen and the light, for --integrator path; 0 is direct light [default: any]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = parse_whole::<u32>, allow_negative_numbers = true)]
     pub(super) bounces: Option<u32>,
     /// Standard error of every value, as a picture
     #[arg(long, value_name = "FILE.exr")]
@@ -274,8 +293,8 @@ pub(super) struct CompareOptions {
     /// Compare only where this picture is white
     #[arg(long, value_name = "M.png")]
     pub(super) mask: Option<PathBuf>,
-    /// Compare means of N × N pixels
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    /// Compare means of N × N pixels; FLIP is that of whole pixels, whatever N is
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = parse_count, allow_negative_numbers = true)]
     pub(super) block: u32,
     /// Print JSON
     #[arg(long)]
@@ -290,7 +309,7 @@ pub(super) struct FitOptions {
     /// What a fit minimises
     #[arg(long, value_enum, default_value = "l1")]
     pub(super) objective: ObjectiveName,
-    /// Existing folder for error maps (.png) and figures (.csv) of every layer
+    /// Folder for error maps (.png) and figures (.csv) of every layer; it is made in a folder that exists
     #[arg(long, value_name = "DIR")]
     pub(super) maps: Option<PathBuf>,
     /// Fit only this layer, several times
@@ -314,18 +333,18 @@ pub(super) struct BenchOptions {
     #[arg(long, value_name = "NAME", value_enum)]
     pub(super) suite: Vec<Suite>,
     /// Picture size in pixels [default: the scene's]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
     pub(super) size: Option<[u32; 2]>,
     /// Override a key of [render], such as render.front_end=fragment or compute
-    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_pair)]
+    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_set)]
     pub(super) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(super) device: DeviceOptions,
     /// Rounds: frames measured of each scene
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = parse_count, allow_negative_numbers = true)]
     pub(super) frames: u32,
     /// Frames of each rendered first and not measured
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = parse_whole::<u32>, allow_negative_numbers = true)]
     pub(super) warmup: u32,
     /// Also measure what a pair of pixel and light costs at least: its arithmetic alone, its fetches alone
     #[arg(long)]
@@ -374,7 +393,7 @@ pub(super) enum Chapter {
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct ReportOptions {
-    /// Existing folder for the files
+    /// Folder for the files; it is made in a folder that exists
     #[arg(long, value_name = "DIR", default_value = ".")]
     pub(super) out: PathBuf,
     /// One chapter only
@@ -396,22 +415,44 @@ pub(super) struct InfoOptions {
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    sides.ok_or_else(|| "write it as WIDTHxHEIGHT, such as 640x360".into())
+    sides.ok_or_else(|| remedy("this is no size", "write it as WIDTHxHEIGHT, such as 640x360"))
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     let tolerance = text.parse().ok().filter(|tolerance| (1e-9..=1.0).contains(tolerance));
-    tolerance.ok_or_else(|| "write a number from 1e-9 to 1, such as 1e-4".into())
+    tolerance.ok_or_else(|| remedy("this is none", "give a number from 1e-9 to 1, such as 1e-4"))
 }
 
-fn parse_pair(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((key, value)) if !key.is_empty() && !value.is_empty() => Ok((key.into(), value.into())),
-        _ => Err("write it as NAME=VALUE".into()),
-    }
+/// What is wrong with an option's value, in the form of our other errors.
+fn remedy(cause: &str, remedy: &str) -> String {
+    format!("{cause}\n  remedy: {remedy}")
+}
+
+fn parse_count(text: &str) -> Result<u32, String> {
+    let count = text.parse().ok().filter(|count| *count > 0);
+    count.ok_or_else(|| remedy("this is no number above 0", "give a whole number from 1 to 4294967295"))
+}
+
+fn parse_whole<T: FromStr>(text: &str) -> Result<T, String> {
+    text.parse().map_err(|_| remedy("this is no whole number from 0 on", "give a number such as 0 or 12"))
+}
+
+fn parse_set(text: &str) -> Result<(String, String), String> {
+    parse_pair(text).ok_or_else(|| remedy("this is no KEY=VALUE", "name a key and its value, such as samples=16"))
+}
+
+fn parse_aov(text: &str) -> Result<(String, String), String> {
+    let pair = parse_pair(text);
+    pair.ok_or_else(|| remedy("this is no NAME=FILE", "name a variable and its file, such as normal=normal.exr"))
+}
+
+fn parse_pair(text: &str) -> Option<(String, String)> {
+    let (key, value) = text.split_once('=')?;
+    (!key.is_empty() && !value.is_empty()).then(|| (key.into(), value.into()))
 }
 
 fn parse_range(text: &str) -> Result<std::ops::Range<u32>, String> {
     let ends = text.split_once("..").and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
-    ends.filter(|range| !range.is_empty()).ok_or_else(|| "write it as A..B with A < B, such as 0..60".into())
+    ends.filter(|range| !range.is_empty())
+        .ok_or_else(|| remedy("these are no frames", "write them as A..B with A < B, such as 0..60"))
 }
