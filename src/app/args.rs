@@ -205,7 +205,7 @@ fn parse_share(text: &str) -> Result<f64, String> {
 fn parse_seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(seconds) if (0.0..1e9).contains(&seconds) => Ok(seconds),
-        _ => Err(remedy("these are no seconds from 0 to 1e9", "give a number, such as 30")),
+        _ => Err(remedy("this is no time from 0 to 1e9 s", "give seconds, such as 30")),
     }
 }
 
@@ -438,12 +438,15 @@ fn parse_whole<T: FromStr>(text: &str) -> Result<T, String> {
 }
 
 fn parse_set(text: &str) -> Result<(String, String), String> {
-    parse_pair(text).ok_or_else(|| remedy("this is no KEY=VALUE", "name a key and its value, such as samples=16"))
+    parse_pair(text)
+        .ok_or_else(|| remedy("this is no KEY=VALUE", "name a key and its value, such as samples=16"))
 }
 
 fn parse_aov(text: &str) -> Result<(String, String), String> {
     let pair = parse_pair(text);
-    pair.ok_or_else(|| remedy("this is no NAME=FILE", "name a variable and its file, such as normal=normal.exr"))
+    pair.ok_or_else(|| {
+        remedy("this is no NAME=FILE", "name a variable and its file, such as normal=normal.exr")
+    })
 }
 
 fn parse_pair(text: &str) -> Option<(String, String)> {

@@ -264,7 +264,11 @@ pub(super) fn print_table(title: &str, passes: &[Pass], frames: &[Timings]) -> R
         print(format_args!("{:<10} {:<16}{cpu}", pass.name, ms(pass.gpu_ms)))?;
     }
     let [wall, cpu] = [figure(frames, |t| Some(t.wall_ms)), figure(frames, |t| Some(t.cpu_ms))].map(ms);
-    print(format_args!("{:<10} {wall} ms passed, {} ms of CPU time in all threads", "frame", cpu.trim_start()))
+    print(format_args!(
+        "{:<10} {wall} ms passed, {} ms of CPU time in all threads",
+        "frame",
+        cpu.trim_start()
+    ))
 }
 
 /// Says what full lists cost the picture.

@@ -235,9 +235,9 @@ impl<'a> Loader<'a> {
     /// The texture that a string of the scene file names.
     pub(super) fn texture(&mut self, value: &Value, usage: Use) -> Result<u32> {
         let path = self.find(value)?;
-        self.textures.load(&path, usage, &value.place()).map_err(|Fault { cause, remedy }| {
-            value.error(format!("names \"{path}\": {cause}"), remedy)
-        })
+        self.textures
+            .load(&path, usage, &value.place())
+            .map_err(|Fault { cause, remedy }| value.error(format!("names \"{path}\": {cause}"), remedy))
     }
 
     /// The bytes of a file that exists.

@@ -86,7 +86,8 @@ mod tests {
         let wide = margin.widen(&texture);
         assert_eq!((wide.width, wide.height), (5, 4));
         let Texels::Srgb8(texels) = wide.texels else { panic!("as it was") };
-        let rows: Vec<Vec<u8>> = texels.chunks(5).map(|row| row.iter().map(|texel| texel[0]).collect()).collect();
+        let rows: Vec<Vec<u8>> =
+            texels.chunks(5).map(|row| row.iter().map(|texel| texel[0]).collect()).collect();
         assert_eq!(rows, [[0, 0, 0, 1, 2], [0, 0, 0, 1, 2], [0, 0, 0, 1, 2], [3, 3, 3, 4, 5]]);
         // The same places: texels from the left, and from below.
         assert_eq!(margin.moved([-0.5, 0.0], [3, 2]), [0.1, 0.0]);

@@ -31,7 +31,7 @@ impl Stage {
     ) -> Result<Self> {
         let attributes =
             Window::default_attributes().with_title("amas").with_inner_size(PhysicalSize::new(width, height));
-        let window = event_loop.create_window(attributes).map_err(|error| Error::NoDevice {
+        let window = event_loop.create_window(attributes).map_err(|error| Error::NoDisplay {
             cause: format!("the window cannot be opened ({error})"),
             remedy: "check the display".into(),
         })?;

@@ -189,7 +189,11 @@ fn check_uvs(loader: &mut Loader, table: &Table, mesh: &Mesh) {
         return;
     };
     let cause = format!("the material \"{}\" {cause}", material.name);
-    loader.warn(&table.place(), cause, "export the OBJ with texture coordinates (vt), or choose another material");
+    loader.warn(
+        &table.place(),
+        cause,
+        "export the OBJ with texture coordinates (vt), or choose another material",
+    );
 }
 
 fn anisotropic(material: &Material) -> bool {

@@ -172,9 +172,8 @@ pub(super) fn suggestion<'k>(unknown: &str, known: impl Iterator<Item = &'k str>
     let known: Vec<&str> = known.collect();
     // Of `indirect.vpls` the last part may be meant.
     let last = |name: &'k str| name.rsplit('.').next().unwrap_or(name);
-    let similarity = |name: &'k str| {
-        strsim::jaro_winkler(unknown, name).max(strsim::jaro_winkler(unknown, last(name)))
-    };
+    let similarity =
+        |name: &'k str| strsim::jaro_winkler(unknown, name).max(strsim::jaro_winkler(unknown, last(name)));
     let best = known.iter().copied().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
     match best {
         Some(name) if similarity(name) > 0.75 => format!("did you mean `{name}`?"),

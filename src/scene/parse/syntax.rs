@@ -19,9 +19,9 @@ fn spelled(value: &str) -> Option<String> {
     let (number, unit) = (value[..end].parse::<f64>().ok()?, value[end..].trim());
     match unit {
         "%" => Some(format!("write a share, `{}`", number / 100.0)),
-        _ if unit.chars().all(|c| c.is_alphabetic() || "°µ²³/".contains(c)) => {
-            Some(format!("write the number alone, such as `{number}`: lengths are in metres, angles in degrees"))
-        }
+        _ if unit.chars().all(|c| c.is_alphabetic() || "°µ²³/".contains(c)) => Some(format!(
+            "write the number alone, such as `{number}`: lengths are in metres, angles in degrees"
+        )),
         _ => None,
     }
 }
