@@ -27,26 +27,27 @@ pub(super) enum Command {
   amas render scene.toml --frames 0..60 -o frame_%04d.png
   amas render scene.toml --set samples=16 --aov normal=normal.exr -o picture.png
 
-Output variables, of what is seen through the pixel's centre; 0 where nothing is. In red, green and blue, or all the same:
+Output variables of what is seen through the pixel's centre, 0 where nothing is, in red, green and blue:
   position     metres; no .png
   normal       unit, turned to the viewer
   depth        distance along the view, metres
   material     its number, from 0; -1 a light, -2 nothing
-  albedo       what the material's diffuse part reflects; of metal, what it reflects at normal incidence
-  roughness    alpha of the specular lobe: its mean, along the tangent, along the bitangent; 1 without such a lobe
+  albedo       what the diffuse part reflects; of metal, what it reflects at normal incidence
+  roughness    alpha: its mean, along tangent, along bitangent; 1 without a specular lobe
   light_count  lights evaluated
   cluster      its number, from 0; -1 a light, or nothing
   slice        of the depth, from 0; -1 a light, or nothing
-  pair_ratio   lights of the list over those within range, then both numbers; 1 where none is within range
+  pair_ratio   lights of the list over those within range (1 if none is), then both numbers
   folded       lights beyond the cap of the list, then those of the list
-  light_error  estimated relative error of the many lights in the cluster: all, of folded lists, of nodes without a range
-  ltc_bound    what area lights' closed form may be off by, as a share of the specular lobe
+  light_error  estimated relative error of the cluster's many lights: all, of folds, of nodes
+  ltc_bound    what area lights' closed form may be off by, a share of the specular lobe
   wireframe    pixels to the nearest edge of a triangle
   direct       light of the scene's own lights, without the background; no .png
   indirect     light that comes by way of other surfaces; no .png
 
-Of the table that is printed, device ms is how long the device took, CPU ms the time of all threads of the process. The last
-row has the time that passed, and CPU ms, for the whole picture.")]
+Of the table that is printed, device ms is how long the device took, CPU ms the time of all threads of the process: of each
+pass with --report, which has it wait for the one before. The last row has the time that passed, and CPU ms, for the whole
+frame.")]
     Render(RenderOptions),
     /// Show a scene in a window and fly through it
     #[command(after_help = "Keys, letters by their place on the keyboard:

@@ -137,7 +137,7 @@ fn luminaires_and_surfaces_hide_each_other() {
 #[test]
 fn luminaires_are_in_no_cluster() {
     let floor = "[[material]]\nname = \"m\"\ntype = \"plastic\"\n\
-        [[mesh]]\nshape = \"plane\"\nsize = 2\nrotate = [90, 0, 0]\nmaterial = \"m\"\ntranslate = [0, 0, -2]\n\
+        [[mesh]]\nshape = \"plane\"\nsize = 3\nrotate = [90, 0, 0]\nmaterial = \"m\"\ntranslate = [0, 0, -2]\n\
         [[light]]\ntype = \"point\"\nposition = [0, 0, 2]\nintensity = [9, 9, 9]\nrange = 9\n";
     let mut rig = Rig::new(scene(&view(&format!("{floor}{SHAPES}"))));
     rig.render();
@@ -162,6 +162,6 @@ fn luminaires_are_in_no_cluster() {
         assert!(light.len() > 200 && nothing.len() > 200, "{} {}", light.len(), nothing.len());
         assert!(light.iter().chain(&nothing).all(|value| *value == [0.0; 4]), "{quantity:?}: {:?}", light[0]);
         let surface = of(|m| m[3] > 0.0 && m[0] >= 0.0);
-        assert!(surface.len() > 100 && surface.iter().all(|value| value[3] == 1.0), "{quantity:?}");
+        assert!(surface.len() > 50 && surface.iter().all(|value| value[3] == 1.0), "{quantity:?}");
     }
 }
