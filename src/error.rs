@@ -33,6 +33,14 @@ pub enum Error {
         /// What to install or choose.
         remedy: String,
     },
+    /// There is nothing to open a window on.
+    #[error("{cause}\n  remedy: {remedy}")]
+    NoDisplay {
+        /// What is missing.
+        cause: String,
+        /// What to start or install.
+        remedy: String,
+    },
     /// A Vulkan call failed.
     #[error("{call} failed: {result}\n  remedy: {remedy}")]
     Vulkan {
@@ -102,12 +110,12 @@ impl Error {
         Self::Usage { cause: cause.into(), remedy: remedy.into() }
     }
 
-    /// The process's exit status: 2 bad usage or input, 3 no device, 1 any other failure.
+    /// The process's exit status: 2 bad usage or input, 3 no device or display, 1 any other failure.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Input { .. } | Self::Usage { .. } => 2,
-            Self::NoDevice { .. } => 3,
+            Self::NoDevice { .. } | Self::NoDisplay { .. } => 3,
             Self::Vulkan { .. } | Self::Write { .. } | Self::Interrupted(_) | Self::Validation { .. } => 1,
         }
     }

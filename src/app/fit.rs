@@ -2,7 +2,7 @@
 
 use super::args::{FitOptions, ObjectiveName};
 use super::fit_maps;
-use super::outputs::{check_distinct, check_folder};
+use super::outputs::{check_distinct, check_folder, make_folder};
 use super::terminal::print;
 use crate::error::{Error, Result};
 use crate::image::write_atomically;
@@ -16,6 +16,7 @@ const HEADER: &str = "layer                 size    TV mean / max     leak max  
 pub(super) fn run(options: &FitOptions) -> Result<()> {
     let layers = chosen(options)?;
     options.out.iter().try_for_each(|path| check_folder(path))?;
+    options.maps.iter().try_for_each(|folder| make_folder(folder))?;
     let maps: Vec<_> = options.maps.iter().map(|folder| folder.join(fit_maps::SUMMARY)).collect();
     maps.iter().try_for_each(|path| check_folder(path))?;
     check_distinct(options.out.iter().chain(&maps), None)?;

@@ -25,10 +25,13 @@ mod terminal;
 mod view;
 
 use crate::error::{Error, Result};
+use crate::image::extension;
 use crate::scene::{Camera, Origin, Scene};
 use args::{Args, Command, SceneOptions};
 use clap::Parser;
+use clap::error::ContextKind;
 use indicatif::ProgressBar;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Frames a second along a camera's path, and of lights that move.
@@ -37,7 +40,7 @@ const FRAME_RATE: f64 = 30.0;
 /// Parses the command line and runs it; errors go to stderr.
 #[must_use]
 pub fn main() -> ExitCode {
-    let args = Args::parse();
+    let args = Args::try_parse().unwrap_or_else(|error| refuse(&error));
     let result = match args.command.unwrap_or_default() {
         Command::Render(options) => render::run(&options),
         #[cfg(feature = "viewer")]
@@ -63,6 +66,20 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// Says what is wrong with the command line, or shows the help that it asks for.
+fn refuse(error: &clap::Error) -> ! {
+    let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
+    match word.filter(|word| ["toml", "obj"].contains(&extension(Path::new(word)).as_str())) {
+        Some(scene) => {
+            let remedy = format!("write `amas render {scene}` or `amas view {scene}`");
+            let error = Error::usage(format!("{scene} is no subcommand"), remedy);
+            terminal::complain(&error);
+            std::process::exit(error.exit_code().into())
+        }
+        None => error.exit(),
+    }
+}
+
 /// Loads the scene that the options name, or the embedded one, and says what loading repaired.
 fn load_scene(options: &SceneOptions) -> Result<Scene> {
     load_watched(options, &ProgressBar::hidden())
@@ -75,7 +92,23 @@ fn load_watched(options: &SceneOptions, progress: &ProgressBar) -> Result<Scene>
     for warning in &scene.warnings {
         terminal::complain(format_args!("warning: {warning}"));
     }
+    warn_of_darkness(options, &scene);
     Ok(scene)
+}
+
+/// Says that there is nothing that could be seen.
+fn warn_of_darkness(options: &SceneOptions, scene: &Scene) {
+    let lights = scene.point_lights.len() + scene.area_lights.len();
+    if let Some(path) = &options.scene
+        && lights == 0
+        && scene.render.background == [0.0; 3]
+    {
+        terminal::complain(format_args!(
+            "warning: {}: the scene has no light, and its background is black: so will the picture be\n  remedy: add a [[light]], \
+             or give `background` in [render]",
+            path.display()
+        ));
+    }
 }
 
 /// Blames `--size` as it was given, not the override that it stands for.

@@ -42,6 +42,19 @@ pub(super) fn check_linear(path: &Path) -> Result<()> {
     }
 }
 
+/// Makes a folder for files, unless it is there; what it lies in must be.
+pub(super) fn make_folder(folder: &Path) -> Result<()> {
+    if folder.is_dir() {
+        return Ok(());
+    }
+    std::fs::create_dir(folder).map_err(|error| {
+        Error::usage(
+            format!("{}: the folder cannot be made: {error}", folder.display()),
+            "make the folder that it lies in first, or write elsewhere",
+        )
+    })
+}
+
 /// Fails early where a file could not be written late.
 pub(super) fn check_folder(path: &Path) -> Result<()> {
     let folder = match path.parent() {

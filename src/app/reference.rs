@@ -2,10 +2,14 @@
 
 use super::args::{IntegratorName, ReferenceOptions};
 use super::outputs::{check_distinct, check_linear};
+use super::terminal::complain;
 use super::{FRAME_RATE, camera, in_scene, load_scene};
 use crate::error::Result;
 use crate::reference::{Integrator, Options, render};
 use crate::scene::RenderSettings;
+
+/// Paths of each ray, where nothing is said.
+const PATHS: u32 = 64;
 
 pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
     check_linear(&options.output)?;
@@ -19,6 +23,7 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
         scene.point_lights = scene.point_lights_at(time);
     }
     warn_of_missing_light(&scene.render, options.integrator);
+    warn_of_idle_options(options);
     let defaults = Options::of_scene(&scene);
     let rendered = render(
         &scene,
@@ -32,7 +37,7 @@ pub(super) fn run(options: &ReferenceOptions) -> Result<()> {
                 IntegratorName::Path => Integrator::Path,
             },
             tolerance: options.tolerance,
-            paths: options.paths,
+            paths: options.paths.unwrap_or(PATHS),
             bounces: options.bounces.unwrap_or(u32::MAX),
             progress: true,
             ..defaults
@@ -49,10 +54,31 @@ fn warn_of_missing_light(render: &RenderSettings, integrator: IntegratorName) {
         IntegratorName::Shadowed => ("shadowed", true, false),
         IntegratorName::Path => ("path", true, true),
     };
-    let asked = [(render.shadows && !shadows, "shadows"), (render.vpls > 0 && !indirect, "indirect light")];
-    for (missing, what) in asked {
+    let asked = [
+        (render.shadows && !shadows, "shadows", "shadowed", "shadows=false"),
+        (render.vpls > 0 && !indirect, "indirect light", "path", "indirect.vpls=0"),
+    ];
+    for (missing, what, remedy, none) in asked {
         if missing {
-            eprintln!("amas: warning: the scene asks for {what}; the {name} integrator leaves that out");
+            complain(format_args!(
+                "warning: the scene asks for {what}; the {name} integrator leaves that out\n  remedy: choose --integrator {remedy}, \
+                 or --set {none}"
+            ));
+        }
+    }
+}
+
+/// Says which options the integrator does not look at.
+fn warn_of_idle_options(options: &ReferenceOptions) {
+    if matches!(options.integrator, IntegratorName::Path) {
+        return;
+    }
+    for (name, given) in [("--paths", options.paths.is_some()), ("--bounces", options.bounces.is_some())] {
+        if given {
+            complain(format_args!(
+                "warning: {name} is for the path integrator only, and means nothing here\n  remedy: add --integrator path, or \
+                 leave it out"
+            ));
         }
     }
 }

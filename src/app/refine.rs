@@ -1,8 +1,8 @@
 //! Gathered light of `amas render`: rounds until the picture is good enough.
 
-use super::args::RefineOptions;
+use super::args::{INDIRECT_ERROR, RefineOptions};
 use super::interrupt::Interrupt;
-use super::terminal::{complain, print};
+use super::terminal::{complain, percent, print};
 use crate::error::{Error, Result};
 use crate::frame::{Frame, FrameInputs, Timings};
 use crate::gpu::Device;
@@ -24,8 +24,16 @@ pub(super) struct Refining<'a> {
 impl<'a> Refining<'a> {
     /// Where there is anything to be gathered.
     pub(super) fn start(goal: &'a RefineOptions, wanted: Gathered) -> Result<Option<Self>> {
-        let start = || Ok(Self { goal, interrupt: Interrupt::listen()?, errors: Vec::new() });
-        wanted.anything().then(start).transpose()
+        if wanted.anything() {
+            return Ok(Some(Self { goal, interrupt: Interrupt::listen()?, errors: Vec::new() }));
+        }
+        if goal.indirect_error.is_some() || goal.time_limit.is_some() {
+            complain(
+                "warning: no light is gathered here, so --indirect-error and --time-limit mean nothing\n  remedy: ask for indirect \
+                 light, such as --set indirect.vpls=16384, or for shadows of point lights, --set shadows=true; or leave them out",
+            );
+        }
+        Ok(None)
     }
 
     /// Refines the picture last rendered until it is good enough, and says how far it came.
@@ -50,11 +58,11 @@ impl<'a> Refining<'a> {
             }
         };
         bar.finish_and_clear();
-        print(format_args!("{} of the picture's mean", progress(frame.gathered(), error)))?;
+        print(progress(frame.gathered(), error))?;
         if !self.reached(error) && !self.interrupted() {
             complain(format_args!(
                 "warning: the time limit came before the error was below {}\n  remedy: raise --time-limit, or --indirect-error",
-                percent(self.goal.indirect_error)
+                percent(self.wanted())
             ));
         }
         self.errors.push(error);
@@ -62,7 +70,11 @@ impl<'a> Refining<'a> {
     }
 
     fn reached(&self, error: Option<f64>) -> bool {
-        error.is_some_and(|error| error <= self.goal.indirect_error)
+        error.is_some_and(|error| error <= self.wanted())
+    }
+
+    fn wanted(&self) -> f64 {
+        self.goal.indirect_error.unwrap_or(INDIRECT_ERROR)
     }
 
     /// Whether the user asked to stop.
@@ -88,12 +100,12 @@ impl<'a> Refining<'a> {
 }
 
 fn progress(frames: u32, error: Option<f64>) -> String {
-    let known = error.map_or_else(|| "unknown before two rounds".into(), percent);
-    format!("gathered light: {frames} frames, estimated error {known}")
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.2} %", 100.0 * share)
+    let known = error.map_or_else(
+        || "unknown before two rounds".into(),
+        |error| format!("{} of the picture's mean", percent(error)),
+    );
+    let plural = if frames == 1 { "" } else { "s" };
+    format!("gathered light: {frames} frame{plural}, estimated error {known}")
 }
 
 /// On a terminal; nothing in a pipe.
@@ -104,4 +116,16 @@ fn spinner() -> ProgressBar {
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(Duration::from_millis(200));
     bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn how_far_it_came() {
+        assert_eq!(progress(1, None), "gathered light: 1 frame, estimated error unknown before two rounds");
+        let done = "gathered light: 32 frames, estimated error 1.25 % of the picture's mean";
+        assert_eq!(progress(32, Some(0.0125)), done);
+    }
 }

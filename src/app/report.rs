@@ -1,7 +1,7 @@
 //! The report and the pass table.
 
 use super::measure::{Figure, MEGABYTE, peak_host_memory};
-use super::terminal::{complain, print};
+use super::terminal::{complain, percent, print};
 use crate::error::Result;
 use crate::frame::{Frame, Timings};
 use crate::gpu::{Device, DeviceInfo};
@@ -263,21 +263,21 @@ pub(super) fn print_table(title: &str, passes: &[Pass], frames: &[Timings]) -> R
         let cpu = pass.cpu_ms.map_or_else(none, |ms| format!("{ms:9.2}"));
         print(format_args!("{:<10} {:<16}{cpu}", pass.name, ms(pass.gpu_ms)))?;
     }
+    let [wall, cpu] = [figure(frames, |t| Some(t.wall_ms)), figure(frames, |t| Some(t.cpu_ms))].map(ms);
     print(format_args!(
-        "{:<10} {:<16}{}",
+        "{:<10} {wall} ms passed, {} ms of CPU time in all threads",
         "frame",
-        format!("{} wall", ms(figure(frames, |t| Some(t.wall_ms)))),
-        ms(figure(frames, |t| Some(t.cpu_ms)))
+        cpu.trim_start()
     ))
 }
 
 /// Says what full lists cost the picture.
 pub(super) fn warn_of_overflow(counters: &Counters, cap: u32) {
     if counters.overflowed > 0 {
-        let error = 100.0 * f32::from_bits(counters.fold_error);
+        let error = percent(f32::from_bits(counters.fold_error).into());
         complain(format_args!(
             "warning: {} of {} clusters are reached by more than {cap} lights (at most {}); {} list entries were folded, \
-             which changes a cluster by about {error:.2} % at most\n  remedy: raise render.max_lights_per_cluster (up to 2048), \
+             which changes a cluster by about {error} at most\n  remedy: raise render.max_lights_per_cluster (up to 2048), \
              or shorten the lights' ranges",
             counters.overflowed, counters.occupied, counters.longest, counters.folded
         ));

@@ -23,3 +23,36 @@ pub(super) fn complain(text: impl Display) {
     // If this fails, the message has no other way out.
     let _ = writeln!(stderr(), "amas: {text}");
 }
+
+/// A share as a percentage: two decimals, or as many as show two digits.
+pub(super) fn percent(share: f64) -> String {
+    let percentage = 100.0 * share;
+    if percentage == 0.0 || percentage.abs() >= 0.1 {
+        format!("{percentage:.2} %")
+    } else if percentage.abs() >= 1e-6 {
+        let decimals = (1.0 - percentage.abs().log10().floor()) as usize;
+        format!("{percentage:.decimals$} %")
+    } else {
+        format!("{percentage:.1e} %")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_shares_keep_two_digits() {
+        for (share, text) in [
+            (0.0, "0.00 %"),
+            (0.02, "2.00 %"),
+            (1.0, "100.00 %"),
+            (0.001, "0.10 %"),
+            (0.000_23, "0.023 %"),
+            (1e-5, "0.0010 %"),
+            (1e-12, "1.0e-10 %"),
+        ] {
+            assert_eq!(percent(share), text);
+        }
+    }
+}

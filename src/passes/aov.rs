@@ -1,7 +1,7 @@
 //! Arbitrary output variables: one quantity of the visible surface per pixel, in an image of its own.
 //!
 //! Recorded only when asked for, after the frame, against the frame's depth. A light that is seen has a position, a
-//! normal turned to the viewer, the material −1, and no lights.
+//! normal turned to the viewer, the material −1, no lights and no colour; clusters, and what is estimated of them, it has none.
 
 mod corners;
 

@@ -17,6 +17,8 @@ const GREY: f32 = 0.5;
 /// What a `[[mesh]]` says about its materials, as indices into `Scene::materials`.
 #[derive(Default)]
 pub(super) struct Binding {
+    /// File and line of the `[[mesh]]`.
+    pub(super) place: String,
     pub(super) all: Option<u32>,
     pub(super) by_name: HashMap<String, u32>,
 }
@@ -43,13 +45,13 @@ pub(super) fn material(
     let Some((path, obj)) = obj else {
         return Ok(fallback(loader));
     };
-    let library = library(loader, path, obj)?;
+    let library = library(loader, &binding.place, path, obj)?;
     let Some((file, entry)) = library.get(name) else {
-        let shown = loader.files.display(path);
-        loader.warn(format!(
-            "{}: the material \"{name}\" has neither a [[material]] nor an MTL entry; it is drawn grey",
-            shown.display()
-        ));
+        let cause = format!(
+            "the material \"{name}\" of \"{path}\" has neither a [[material]] nor an MTL entry; it is drawn grey"
+        );
+        let remedy = format!("add a [[material]] of that name, or `materials = {{ \"{name}\" = \"…\" }}`");
+        loader.warn(&binding.place, cause, remedy);
         return Ok(fallback(loader));
     };
     let key = (file.clone(), name.to_owned());
@@ -58,7 +60,8 @@ pub(super) fn material(
     }
     let unique = unique_name(loader, name, file);
     let material = mtl::material(loader, file, entry, unique)?;
-    let index = loader.add_material(material);
+    let place = mtl::place(loader, file, entry);
+    let index = loader.add_material(material, &place);
     loader.from_mtl.insert(key, index);
     Ok(index)
 }
@@ -75,13 +78,13 @@ fn unique_name(loader: &Loader, name: &str, file: &str) -> String {
     unique
 }
 
-fn library(loader: &mut Loader, path: &str, obj: &obj::Obj) -> Result<Rc<Library>> {
+fn library(loader: &mut Loader, place: &str, path: &str, obj: &obj::Obj) -> Result<Rc<Library>> {
     if let Some(library) = loader.libraries.get(path) {
         return Ok(Rc::clone(library));
     }
     let mut library = Library::new();
     for reference in &obj.libraries {
-        for file in library_files(loader, path, reference) {
+        for file in library_files(loader, place, path, reference) {
             let text = loader.read_lossy(&file)?;
             for entry in mtl::read(&loader.files.display(&file), &text)? {
                 library.insert(entry.name.clone(), (file.clone(), entry));
@@ -94,7 +97,7 @@ fn library(loader: &mut Loader, path: &str, obj: &obj::Obj) -> Result<Rc<Library
 }
 
 /// `mtllib` may name one file with spaces, or several files.
-fn library_files(loader: &mut Loader, path: &str, reference: &str) -> Vec<String> {
+fn library_files(loader: &mut Loader, place: &str, path: &str, reference: &str) -> Vec<String> {
     if let Some(file) = loader.files.find_nearby(path, reference) {
         return vec![file];
     }
@@ -103,8 +106,8 @@ fn library_files(loader: &mut Loader, path: &str, reference: &str) -> Vec<String
         match loader.files.find_nearby(path, name) {
             Some(file) => files.push(file),
             None => {
-                let shown = loader.files.display(path);
-                loader.warn(format!("{}: the material file \"{reference}\" is missing", shown.display()));
+                let cause = format!("the material file \"{reference}\" of \"{path}\" is missing");
+                loader.warn(place, cause, "put it beside the OBJ, or give the mesh a `material`");
                 break;
             }
         }
@@ -125,7 +128,8 @@ fn fallback(loader: &mut Loader) -> u32 {
         two_sided: true,
     };
     material.parameters[Parameter::Color as usize].constant = [GREY; 3];
-    let index = loader.add_material(material);
+    // Grey reflects less than it receives: nothing is said of its place.
+    let index = loader.add_material(material, "");
     loader.fallback = Some(index);
     index
 }

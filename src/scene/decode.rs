@@ -17,9 +17,10 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 
 use super::bump;
 use super::files::Files;
+use super::load::warning;
 use super::parse::LARGEST;
 use super::texture::{Texels, Texture};
-use crate::error::{Error, Result};
+use super::widen::Margin;
 
 /// Longest side of a texture.
 const LONGEST_SIDE: u32 = 16384;
@@ -44,26 +45,86 @@ pub(super) struct Textures<'a> {
     files: &'a Files<'a>,
     loaded: Vec<Texture>,
     index: HashMap<(String, Use), u32>,
+    widened: HashMap<(u32, Margin), u32>,
     bytes: u64,
     warnings: Vec<String>,
 }
 
+/// Why a texture cannot be had, and what to do about it; who names it knows the file and the line.
+pub(super) struct Fault {
+    pub(super) cause: String,
+    pub(super) remedy: &'static str,
+}
+
+fn fault(cause: impl Into<String>, remedy: &'static str) -> Fault {
+    Fault { cause: cause.into(), remedy }
+}
+
 impl<'a> Textures<'a> {
     pub(super) fn new(files: &'a Files<'a>) -> Self {
-        Self { files, loaded: Vec::new(), index: HashMap::new(), bytes: 0, warnings: Vec::new() }
+        Self {
+            files,
+            loaded: Vec::new(),
+            index: HashMap::new(),
+            widened: HashMap::new(),
+            bytes: 0,
+            warnings: Vec::new(),
+        }
     }
 
-    /// The index of the texture in file `path`, loaded if it is new.
-    pub(super) fn load(&mut self, path: &str, usage: Use) -> Result<u32> {
+    /// The index of the texture in file `path`, loaded if it is new; `place` is where it is named.
+    pub(super) fn load(&mut self, path: &str, usage: Use, place: &str) -> Result<u32, Fault> {
         let key = (path.to_owned(), usage);
         if let Some(index) = self.index.get(&key) {
             return Ok(*index);
         }
-        let texture = self.decode(path, usage)?;
-        let index = self.loaded.len() as u32;
-        self.loaded.push(texture);
+        let (texture, repaired) = self.decode(path, usage)?;
+        if repaired {
+            let cause = format!("texels of \"{path}\" that are not finite or negative became 0");
+            self.warnings.push(warning(place, &cause, "export it again without them"));
+        }
+        let index = self.add(texture);
         self.index.insert(key, index);
         Ok(index)
+    }
+
+    fn add(&mut self, texture: Texture) -> u32 {
+        self.loaded.push(texture);
+        self.loaded.len() as u32 - 1
+    }
+
+    /// The index of the texture whose border goes on as far as coordinates of texture `index` reach, which then lie in it.
+    pub(super) fn reach(&mut self, index: u32, uvs: &mut [[f32; 2]]) -> Result<u32, Fault> {
+        let texture = &self.loaded[index as usize];
+        let size = [texture.width, texture.height];
+        let Some(margin) = Margin::around(uvs, size) else {
+            return Ok(index);
+        };
+        let sides = margin.sides(size);
+        if sides.iter().any(|side| *side > u64::from(LONGEST_SIDE)) {
+            return Err(fault(
+                format!("reach over {} × {} of the texture's texels, borders included", sides[0], sides[1]),
+                "keep them nearer to 0…1, so that it is at most 16384 a side",
+            ));
+        }
+        uvs.iter_mut().for_each(|uv| *uv = margin.moved(*uv, size));
+        if let Some(widened) = self.widened.get(&(index, margin)) {
+            return Ok(*widened);
+        }
+        let texture = margin.widen(texture);
+        self.count(sides, matches!(texture.texels, Texels::Float(_)))?;
+        let widened = self.add(texture);
+        self.widened.insert((index, margin), widened);
+        Ok(widened)
+    }
+
+    /// Counts what a texture takes.
+    fn count(&mut self, [width, height]: [u64; 2], float: bool) -> Result<(), Fault> {
+        self.bytes += width * height * if float { 16 } else { 4 };
+        if self.bytes > MOST_BYTES {
+            return Err(fault("with this one the textures take more than 8 GiB", "use smaller textures"));
+        }
+        Ok(())
     }
 
     /// The textures and what was repaired in them.
@@ -71,10 +132,10 @@ impl<'a> Textures<'a> {
         (self.loaded, self.warnings)
     }
 
-    fn decode(&mut self, path: &str, usage: Use) -> Result<Texture> {
-        let fail = |cause: String, remedy: &str| Error::input(self.files.display(path), None, cause, remedy);
+    /// The texture, and whether any of its texels had to be repaired.
+    fn decode(&mut self, path: &str, usage: Use) -> Result<(Texture, bool), Fault> {
         let bytes = self.files.read(path).map_err(|error| {
-            fail(format!("cannot read the texture: {error}"), "check the file's name and rights")
+            fault(format!("cannot read the texture: {error}"), "check the file's name and rights")
         })?;
         let picture = decode(path, &bytes).map_err(|error| {
             let remedy = match &error {
@@ -82,30 +143,17 @@ impl<'a> Textures<'a> {
                 ImageError::Unsupported(_) => "use PNG, JPEG, TGA, HDR or EXR",
                 _ => "export or download the file again; it is damaged or of another format",
             };
-            fail(format!("cannot decode the texture: {error}"), remedy)
+            fault(format!("cannot decode the texture: {error}"), remedy)
         })?;
         let (width, height) = (picture.width(), picture.height());
         if width == 0 || height == 0 {
-            return Err(fail("the texture has no texels".to_owned(), "use a picture that has some"));
+            return Err(fault("the texture has no texels", "use a picture that has some"));
         }
         let float = matches!(picture, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
-        self.bytes += u64::from(width) * u64::from(height) * if float { 16 } else { 4 };
-        if self.bytes > MOST_BYTES {
-            return Err(fail(
-                "with this one the textures take more than 8 GiB".to_owned(),
-                "use smaller textures",
-            ));
-        }
-        let texels = if float {
-            let (texels, repaired) = float_texels(&picture, usage);
-            if repaired {
-                self.warnings.push(format!("{}: texels that are not finite or negative became 0", path));
-            }
-            texels
-        } else {
-            byte_texels(picture, usage)
-        };
-        Ok(Texture { name: path.to_owned(), width, height, texels })
+        self.count([width.into(), height.into()], float)?;
+        let (texels, repaired) =
+            if float { float_texels(&picture, usage) } else { (byte_texels(picture, usage), false) };
+        Ok((Texture { name: path.to_owned(), width, height, texels }, repaired))
     }
 }
 

@@ -9,7 +9,7 @@ use indicatif::ProgressBar;
 use toml::de::DeTable;
 
 use super::bind::Library;
-use super::decode::{Textures, Use};
+use super::decode::{Fault, Textures, Use};
 use super::files::Files;
 use super::material::{Material, Model, Parameter};
 use super::obj::{self, Obj};
@@ -136,6 +136,11 @@ fn read(
     Ok(loader.finish())
 }
 
+/// What the user is told of `place`, a file and its line.
+pub(super) fn warning(place: &str, cause: &str, remedy: &str) -> String {
+    format!("{place}: {cause}\n  remedy: {remedy}")
+}
+
 /// The scene under construction, and what has been read for it.
 pub(super) struct Loader<'a> {
     pub(super) files: &'a Files<'a>,
@@ -190,10 +195,11 @@ impl<'a> Loader<'a> {
         self.scene
     }
 
-    /// Adds a sentence for the user, once.
-    pub(super) fn warn(&mut self, sentence: String) {
-        if !self.scene.warnings.contains(&sentence) {
-            self.scene.warnings.push(sentence);
+    /// Tells the user, once, what was noticed at `place`, a file and its line.
+    pub(super) fn warn(&mut self, place: &str, cause: impl AsRef<str>, remedy: impl AsRef<str>) {
+        let text = warning(place, cause.as_ref(), remedy.as_ref());
+        if !self.scene.warnings.contains(&text) {
+            self.scene.warnings.push(text);
         }
     }
 
@@ -202,12 +208,13 @@ impl<'a> Loader<'a> {
         self.named.get(name).copied()
     }
 
-    /// Adds a material and returns its index.
-    pub(super) fn add_material(&mut self, material: Material) -> u32 {
+    /// Adds the material that stands at `place` and returns its index.
+    pub(super) fn add_material(&mut self, material: Material, place: &str) -> u32 {
         let index = self.scene.materials.len() as u32;
         let color = material.value(Parameter::Color).constant;
         if material.model != Model::Metal && color.iter().any(|x| *x > 1.0) {
-            self.warn(format!("the material \"{}\" reflects more light than it receives", material.name));
+            let cause = format!("the material \"{}\" reflects more light than it receives", material.name);
+            self.warn(place, cause, "give it a colour of at most 1 in every channel");
         }
         if !self.sealed {
             self.named.insert(material.name.clone(), index);
@@ -228,7 +235,9 @@ impl<'a> Loader<'a> {
     /// The texture that a string of the scene file names.
     pub(super) fn texture(&mut self, value: &Value, usage: Use) -> Result<u32> {
         let path = self.find(value)?;
-        self.textures.load(&path, usage)
+        self.textures
+            .load(&path, usage, &value.place())
+            .map_err(|Fault { cause, remedy }| value.error(format!("names \"{path}\": {cause}"), remedy))
     }
 
     /// The bytes of a file that exists.

@@ -29,6 +29,7 @@ mod studio;
 mod tangents;
 pub mod texture;
 mod triangulate;
+mod widen;
 pub mod write;
 
 pub use camera::{Camera, KeyFrame, Projection};
@@ -67,7 +68,7 @@ pub struct Scene {
     pub area_lights: Vec<AreaLight>,
     /// Every file that was read for it, the scene file first; none of a scene that is part of the program.
     pub files: Vec<PathBuf>,
-    /// What loading noticed and repaired, as sentences for the user.
+    /// What loading noticed and repaired, each with file, line, cause and remedy.
     pub warnings: Vec<String>,
 }
 

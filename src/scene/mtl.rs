@@ -14,7 +14,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::decode::Use;
+use super::decode::{Fault, Use};
 use super::load::Loader;
 use super::material::{Material, Model, Parameter};
 use super::obj_scan::logical_lines;
@@ -32,6 +32,8 @@ const MAPS: [&str; 8] = ["map_kd", "map_ks", "map_pr", "map_pm", "map_d", "norm"
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Entry {
     pub(super) name: String,
+    /// Of its `newmtl`, from 1.
+    pub(super) line: usize,
     /// By lower-case keyword; numbers fill all three.
     values: HashMap<&'static str, [f32; 3]>,
     maps: HashMap<&'static str, Map>,
@@ -56,7 +58,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<Vec<Entry>> {
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((&line, ""));
         let (keyword, rest) = (keyword.to_ascii_lowercase(), rest.trim());
         if keyword == "newmtl" {
-            entries.push(Entry { name: rest.to_owned(), ..Entry::default() });
+            entries.push(Entry { name: rest.to_owned(), line: number, ..Entry::default() });
         } else if let Some(entry) = entries.last_mut() {
             statement(entry, &keyword, rest).map_err(|cause| {
                 Error::input(file, number, cause, "correct the line, or export the material again")
@@ -210,25 +212,38 @@ fn constants(entry: &Entry, material: &mut Material) {
 
 /// The texture of `map`; a file that is not there is a warning, since MTL files often travel without them.
 fn texture(loader: &mut Loader, path: &str, entry: &Entry, map: &Map, usage: Use) -> Result<Option<u32>> {
-    let shown = loader.files.display(path);
-    let place = format!("{}: material \"{}\"", shown.display(), entry.name);
+    let (place, name) = (place(loader, path, entry), &entry.name);
     if map.transformed {
-        loader.warn(format!("{place}: -s, -o and -t of the texture \"{}\" are ignored", map.file));
+        let cause = format!("material \"{name}\": -s, -o and -t of the texture \"{}\" are ignored", map.file);
+        loader.warn(&place, cause, "move the mesh's texture coordinates instead");
     }
     let Some(file) = loader.files.find_nearby(path, &map.file) else {
-        loader.warn(format!("{place}: the texture \"{}\" is missing; the constant is used", map.file));
+        let cause =
+            format!("material \"{name}\": the texture \"{}\" is missing; the constant is used", map.file);
+        loader.warn(&place, cause, "put the file there, or give a [[material]] of that name");
         return Ok(None);
     };
-    loader.textures.load(&file, usage).map(Some)
+    let index = loader.textures.load(&file, usage, &place).map_err(|Fault { cause, remedy }| {
+        let cause = format!("material \"{name}\" names \"{file}\": {cause}");
+        Error::input(loader.files.display(path), entry.line, cause, remedy)
+    })?;
+    Ok(Some(index))
+}
+
+/// File and line of an entry, for messages.
+pub(super) fn place(loader: &Loader, path: &str, entry: &Entry) -> String {
+    format!("{}:{}", loader.files.display(path).display(), entry.line)
 }
 
 fn report(loader: &mut Loader, path: &str, entry: &Entry) {
     let value = |key: &str| entry.values.get(key).map(|value| value[0]);
-    let place = format!("{}: material \"{}\"", loader.files.display(path).display(), entry.name);
+    let (place, name) = (place(loader, path, entry), &entry.name);
     if entry.values.get("ke").is_some_and(|ke| ke.iter().any(|x| *x > 0.0)) {
-        loader.warn(format!("{place}: emission (Ke) is ignored; add an area light"));
+        let cause = format!("material \"{name}\": emission (Ke) is ignored");
+        loader.warn(&place, cause, "add an area light where the mesh is");
     }
     if value("d").is_some_and(|d| d < 1.0) || value("tr").is_some_and(|tr| tr > 0.0) {
-        loader.warn(format!("{place}: transparency (d, Tr) is ignored; the surface is opaque"));
+        let cause = format!("material \"{name}\": transparency (d, Tr) is ignored; the surface is opaque");
+        loader.warn(&place, cause, "cut it out with map_d, or leave the mesh out");
     }
 }

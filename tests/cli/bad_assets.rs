@@ -59,7 +59,7 @@ fn textures() {
     texture("t.png", &whole[..whole.len() / 2], &["cannot decode"]);
     texture("t.png", b"", &["cannot decode"]);
     texture("t.png", b"not a picture at all", &["cannot decode"]);
-    texture("t.png", &empty_png(0, 0), &["t.png: "]);
+    texture("t.png", &empty_png(0, 0), &["scene.toml:18: ", "\"t.png\": "]);
     texture("t.png", &empty_png(16, 16), &["cannot decode"]);
     texture("t.png", &empty_png(100_000, 100_000), &["16384 texels"]);
     texture("t.txt", b"words", &["cannot decode"]);

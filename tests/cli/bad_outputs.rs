@@ -28,8 +28,11 @@ fn names_and_folders() {
     render(&["--aov", "normal=none/n.exr"], &["none/n.exr", "no folder"]);
     render(&["--aov", "position=n.png"], &["n.png", ".exr or .pfm"]);
     folder.refused(&["bench", "scene.toml", "--json", "none/b.json"], &["none/b.json", "no folder"]);
-    folder.refused(&["report", "--out", "none"], &["none/area.csv", "no folder none"]);
-    folder.refused(&["report", "--out", "scene.toml"], &["no folder scene.toml"]);
+    folder.refused(
+        &["report", "--out", "none/deeper"],
+        &["none/deeper", "cannot be made", "the folder that it lies in"],
+    );
+    folder.refused(&["report", "--out", "scene.toml"], &["scene.toml", "cannot be made"]);
     for words in [["-o", "a.png"].as_slice(), &["-o", "a.exr", "--error", "e.png"]] {
         folder.refused(&[&["reference", "scene.toml"], words].concat(), &[".exr or .pfm"]);
     }

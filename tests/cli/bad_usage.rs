@@ -17,6 +17,58 @@ fn words_that_do_not_exist() {
     folder.refused(&["compare", "a.exr", "b.exr", "--block", "0"], &["--block"]);
 }
 
+/// The message is that of the option, not of a word that begins with a dash.
+#[test]
+fn negative_numbers() {
+    let folder = Folder::new();
+    let refused = |command: &[&str], option: &str, remedy: &str| {
+        folder.refused(&[command, &[option, "-1"]].concat(), &["'-1'", option, "remedy: ", remedy]);
+    };
+    let render = ["render", "scene.toml"];
+    refused(&render, "--frames", "A..B");
+    refused(&render, "--indirect-error", "a number above 0");
+    refused(&render, "--time-limit", "seconds");
+    let reference = ["reference", "scene.toml", "-o", "a.exr"];
+    for (option, remedy) in [
+        ("--spp", "from 1"),
+        ("--paths", "from 1"),
+        ("--seed", "such as 0"),
+        ("--frame", "such as 0"),
+        ("--bounces", "such as 0"),
+    ] {
+        refused(&reference, option, remedy);
+    }
+    refused(&reference, "--tolerance", "1e-9 to 1");
+    refused(&["bench", "scene.toml"], "--warmup", "such as 0");
+    refused(&["bench", "scene.toml"], "--frames", "from 1");
+    refused(&["view", "scene.toml"], "--frames", "from 1");
+    refused(&["compare", "a.exr", "b.exr"], "--block", "from 1");
+}
+
+/// `amas scene.toml`, as other programs take it.
+#[test]
+fn a_scene_is_no_subcommand() {
+    let folder = Folder::new();
+    folder.refused(&["scene.toml"], &["scene.toml is no subcommand", "`amas render scene.toml`"]);
+    folder.refused(&["some/model.obj"], &["`amas view some/model.obj`"]);
+}
+
+/// What `view` is given beside the scene is looked at before there is a window.
+#[test]
+fn files_of_the_window() {
+    let folder = Folder::new();
+    folder.write("a.png", crate::png(2, 2, |_, _| [9; 4]));
+    folder.write("bad.exr", "no picture");
+    let view = |words: &[&str], parts: &[&str]| {
+        folder.refused(&[&["view", "scene.toml"], words].concat(), parts);
+    };
+    view(&["--compare", "none.exr"], &["none.exr"]);
+    view(&["--compare", "bad.exr"], &["bad.exr"]);
+    view(&["--compare", "a.png"], &["a.png", "give a .exr or .pfm"]);
+    view(&["--glsl", "none"], &["--glsl none", "no such folder"]);
+    view(&["--glsl", "."], &["--glsl .", "none of amas's shaders"]);
+}
+
 #[test]
 fn fits() {
     let folder = Folder::new();
@@ -24,14 +76,14 @@ fn fits() {
     folder.refused(&["fit", "--layer", "tin"], &["\"tin\"", "metal"]);
     folder.refused(&["fit", "--layer", "metal", "--out", "t.bin"], &["t.bin", "--layer"]);
     folder.refused(&["fit", "--out", "none/t.bin"], &["no folder none"]);
-    folder.refused(&["fit", "--layer", "sheen", "--maps", "none"], &["no folder none"]);
+    folder.refused(&["fit", "--layer", "sheen", "--maps", "none/maps"], &["none/maps", "cannot be made"]);
 }
 
 #[test]
 fn sizes() {
     let folder = Folder::new();
-    for size in ["5", "64x", "x48", "64*48", "64.5x48", "big", ""] {
-        folder.refused(&["render", "scene.toml", "--size", size], &["--size"]);
+    for size in ["5", "64x", "x48", "64*48", "64.5x48", "-64x48", "big", ""] {
+        folder.refused(&["render", "scene.toml", "--size", size], &["--size", "remedy: ", "640x360"]);
     }
     for tolerance in ["0", "2", "1e-10", "nan", "x"] {
         folder.refused(&["reference", "scene.toml", "-o", "a.exr", "--tolerance", tolerance], &["1e-9 to 1"]);
@@ -46,7 +98,7 @@ fn sizes() {
 #[test]
 fn frames() {
     let folder = Folder::new();
-    for frames in ["5..2", "5..5", "5", "a..b", "..", "0..-1", "0..=5"] {
+    for frames in ["0", "5..2", "5..5", "5", "a..b", "..", "0..-1", "-1..5", "0..=5"] {
         folder.refused(&["render", "scene.toml", "--frames", frames], &["A..B"]);
     }
     let several = ["render", "scene.toml", "--frames", "0..3", "-o"];
@@ -65,8 +117,8 @@ fn names_of_things() {
     };
     render(&["--camera", "side"], &["scene.toml", "\"side\"", "choose one of: main"]);
     render(&["--aov", "shine=a.exr"], &["\"shine\"", "wireframe, direct or indirect"]);
-    render(&["--aov", "normal"], &["NAME=VALUE"]);
-    render(&["--aov", "normal="], &["NAME=VALUE"]);
+    render(&["--aov", "normal"], &["no NAME=FILE", "remedy: ", "normal=normal.exr"]);
+    render(&["--aov", "normal="], &["no NAME=FILE"]);
     folder.refused(
         &["reference", "scene.toml", "-o", "a.exr", "--camera", "side"],
         &["scene.toml", "\"side\"", "main"],
@@ -80,8 +132,8 @@ fn overrides() {
         folder.refused(&["render", "scene.toml", "--set", pair], parts);
         folder.refused(&["bench", "scene.toml", "--set", pair], parts);
     };
-    set("samples", &["NAME=VALUE"]);
-    set("=4", &["NAME=VALUE"]);
+    set("samples", &["no KEY=VALUE", "remedy: ", "samples=16"]);
+    set("=4", &["no KEY=VALUE"]);
     set("sampels=4", &["--set sampels=4", "unknown key", "did you mean `samples`?"]);
     set("camera.near=1", &["--set camera.near=1", "unknown key"]);
     set("samples=many", &["--set samples=many", "whole number"]);

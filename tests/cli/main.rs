@@ -15,6 +15,7 @@ mod help;
 mod indirect;
 mod pictures;
 mod report;
+mod warnings;
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -153,8 +154,8 @@ impl Run {
             .stderr
             .lines()
             .any(|line| line.strip_prefix("  remedy: ").is_some_and(|remedy| remedy.len() > 5));
-        let sentence = if ours { "amas: " } else { "error: " };
-        let begins = |line: &&str| line.starts_with(sentence) && line.len() > 20;
+        let sentence = |line: &&str| ["amas: ", "error: "].iter().any(|who| line.starts_with(who));
+        let begins = |line: &&str| sentence(line) && line.len() > 20;
         assert!(self.stderr.lines().any(|line| begins(&line)), "{self:#?}");
         assert!(ours || self.stderr.contains("--help"), "{self:#?}");
     }

@@ -47,6 +47,19 @@ fn textured_lights_are_the_oracle_s() {
     }
 }
 
+/// A dark border that goes on: what the picture's inside would give by its smaller copies is not there. Held to the scene's
+/// `light_error`, as points of cubature stand for a light of which but a corner is bright.
+#[test]
+fn textures_beyond_their_borders_are_the_oracle_s() {
+    let dark = |x: u32| x == 0 || x == 15;
+    let texture = png([16, 16], |x, y| [if dark(x) || dark(y) { 10 } else { 250 }, 200, 90, 255]);
+    let light = "type = \"polygon\"\nvertices = [[0, 4, 2], [0.3, 4, 2], [0.3, 4, 2.3], [0, 4, 2.3]]\n\
+        uvs = [[0, 0], [3, 0], [3, 3], [0, 3]]\ntwo_sided = true\ntexture = \"t.png\"\n";
+    let text = small(&format!("{FIVE_MATERIALS}{}", self::light(light)));
+    let mut rig = Rig::new(scene_with(&text, &[("t.png", &texture)]));
+    assert_close(&rig.render(), &oracle(&rig.scene), 0.99, 1e-2);
+}
+
 #[test]
 fn light_leaves_on_the_side_of_the_normal() {
     let up = |extra: &str| {

@@ -61,6 +61,28 @@ fn textures_of_luminaires_are_the_oracle_s() {
     assert!(count <= 8, "{count} pixels differ");
 }
 
+/// Beyond 0…1 the border goes on, and nothing of what lies near it, however few pixels see it: a white square with a black
+/// border of a sixteenth is the lower left quarter of a light.
+#[test]
+fn borders_of_textures_go_on_when_blurred() {
+    let black = |x: u32| x == 0 || x == 15;
+    let bytes = png([16, 16], |x, y| [if black(x) || black(y) { 0 } else { 255 }; 4]);
+    let polygon = "[[light]]\ntype = \"polygon\"\nvertices = [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]]\n\
+        uvs = [[0, 0], [2, 0], [2, 2], [0, 2]]\nradiance = [1, 1, 1]\ntexture = \"t.png\"\n";
+    let text = view(polygon).replace("[60, 44]", "[8, 8]").replace("[0.1, 0.2, 4]", "[0, 0, 4]");
+    let text = text.replace("vertical_fov = 50", "orthographic_height = 4");
+    let mut rig = Rig::new(scene_with(&text, &[("t.png", &bytes)]));
+    let picture = rig.render();
+    let value = |x: usize, y: usize| f64::from(picture.pixels[y * 8 + x][0]);
+    // A pixel is four texels wide; next to the picture a look-up may reach into it.
+    for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))).filter(|(x, y)| *x > 4 || *y < 3) {
+        assert!(value(x, y).abs() < 1e-6, "{x}, {y}: {}", value(x, y));
+    }
+    let sum: f64 = (0..64).map(|i| value(i % 8, i / 8)).sum();
+    let expected = 196.0 / 256.0 / 4.0;
+    assert!((sum / 64.0 / expected - 1.0).abs() < 0.02, "{sum}");
+}
+
 /// Far away a pixel holds many texels, and shows their mean.
 #[test]
 fn small_pictures_of_luminaires_are_filtered() {
@@ -108,5 +130,38 @@ fn luminaires_and_surfaces_hide_each_other() {
             assert_eq!(picture.pixels.iter().filter(lit).count(), seen);
         }
         assert!(seen > 200);
+    }
+}
+
+/// Of clusters and their lights a luminaire has what a pixel without a surface has.
+#[test]
+fn luminaires_are_in_no_cluster() {
+    let floor = "[[material]]\nname = \"m\"\ntype = \"plastic\"\n\
+        [[mesh]]\nshape = \"plane\"\nsize = 3\nrotate = [90, 0, 0]\nmaterial = \"m\"\ntranslate = [0, 0, -2]\n\
+        [[light]]\ntype = \"point\"\nposition = [0, 0, 2]\nintensity = [9, 9, 9]\nrange = 9\n";
+    let mut rig = Rig::new(scene(&view(&format!("{floor}{SHAPES}"))));
+    rig.render();
+    let materials = rig.aov(Quantity::Material);
+    for quantity in [
+        Quantity::LightCount,
+        Quantity::Cluster,
+        Quantity::Slice,
+        Quantity::PairRatio,
+        Quantity::Folded,
+        Quantity::LightError,
+        Quantity::Albedo,
+        Quantity::Roughness,
+        Quantity::LtcBound,
+    ] {
+        let values = rig.aov(quantity);
+        let of = |kind: fn(&[f32; 4]) -> bool| {
+            let chosen = materials.iter().zip(&values).filter(move |(material, _)| kind(material));
+            chosen.map(|(_, value)| *value).collect::<Vec<_>>()
+        };
+        let [light, nothing] = [of(|m| m[3] > 0.0 && m[0] < 0.0), of(|m| m[3] == 0.0)];
+        assert!(light.len() > 200 && nothing.len() > 200, "{} {}", light.len(), nothing.len());
+        assert!(light.iter().chain(&nothing).all(|value| *value == [0.0; 4]), "{quantity:?}: {:?}", light[0]);
+        let surface = of(|m| m[3] > 0.0 && m[0] >= 0.0);
+        assert!(surface.len() > 50 && surface.iter().all(|value| value[3] == 1.0), "{quantity:?}");
     }
 }

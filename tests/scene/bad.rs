@@ -24,6 +24,7 @@ fn message(error: Option<amas::Error>, toml: &str, line: usize, part: &str) {
 fn documents() {
     assert_eq!(CAMERA.lines().count(), 4, "the line numbers count on it");
     fails("[render\n", 5, "not valid TOML");
+    fails("[[light]]\ntype = \"point\"\nrange = 1 km\n", 7, "write the number alone, such as `1`");
     fails("a = 1\n", 5, "unknown key `a`");
     fails("[rendr]\n", 5, "did you mean `render`?");
     fails("[[meshes]]\n", 5, "did you mean `mesh`?");

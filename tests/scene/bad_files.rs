@@ -46,7 +46,7 @@ fn mtl_files() {
         ("newmtl a\nNs nan\n", "m.mtl:2", "`ns` needs"),
         ("newmtl a\nmap_Kd\n", "m.mtl:2", "names no file"),
         ("newmtl a\nmap_Kd -s 1 1 1\n", "m.mtl:2", "names no file"),
-        ("newmtl a\nmap_Kd bad.png\n", "bad.png", "cannot decode"),
+        ("newmtl a\nmap_Kd bad.png\n", "m.mtl:1", "\"bad.png\": cannot decode"),
     ];
     for (text, place, part) in cases {
         let files: [(&str, &[u8]); 3] = [("m.obj", obj), ("m.mtl", text.as_bytes()), ("bad.png", b"no")];
@@ -93,8 +93,9 @@ fn pictures() {
         ("t.jpg", b"\xff\xd8\xff\xe0"),
     ];
     for (name, bytes) in cases {
-        fails(&material(name), &[(name, bytes)], name, "cannot decode");
+        let cause = format!("`texture` names \"{name}\": cannot decode");
+        fails(&material(name), &[(name, bytes)], "test.toml:8", &cause);
     }
     let wide = png(16385, 1, |_, _| [0; 4]);
-    fails(&material("wide.png"), &[("wide.png", &wide)], "wide.png", "16384 texels a side");
+    fails(&material("wide.png"), &[("wide.png", &wide)], "test.toml:8", "16384 texels a side");
 }

@@ -100,6 +100,7 @@ fn lights() {
     let square = "[[light]]\ntype = \"polygon\"\nvertices = [[0,0,0],[1,0,0],[1,1,0],[0,1,0]]\n";
     fails(&format!("{square}holes = [[[2,0,0],[3,0,0],[2,1,0]]]\n"), 8, "leaves the outer loop");
     fails(&format!("{square}holes = [[[0.2,0.2,1],[0.3,0.2,1],[0.2,0.3,1]]]\n"), 8, "not planar");
+    fails(&format!("{square}holes = [[0.2,0.2,0],[0.3,0.2,0],[0.2,0.3,0]]\n"), 8, "holes = [[[0, 2, 0]");
     fails(&format!("{square}uvs = [[0, 0]]\nradiance = [1, 1, 1]\n"), 8, "1 entries for 4 vertices");
     for hole in ["[[0.2,0.2,0],[1.2,0.5,0],[0.2,0.8,0]]", "[[0.4,0.4,0],[0.6,0.4,0],[0.4,0.6,0]]"] {
         let holes = format!("holes = [[[0.5,0.1,0],[0.6,0.9,0],[0.5,0.9,0]], {hole}]\n");

@@ -75,6 +75,10 @@ fn bad_overrides_name_the_set() {
         ("max_lights_per_cluster", "127", "must be from 128 to 2048"),
         ("indirect", "{ vlps = 5 }", "did you mean `vpls`?"),
         ("light_error", "-1", "must be from 0 to 1"),
+        ("light_error", "5%", "write a share, `0.05`"),
+        ("size", "160x90", "write `[160, 90]`"),
+        ("indirect", "256", "did you mean `indirect.vpls`"),
+        ("vpls", "256", "did you mean `indirect.vpls`?"),
     ];
     for (key, value, part) in cases {
         let error = try_load("", &[], &[(key, value)]).unwrap_err();

@@ -3,7 +3,7 @@
 use amas::scene::{AreaShape, PointLight};
 use glam::Vec3;
 
-use crate::{close, load, png};
+use crate::{close, load, png, try_load};
 
 fn points(toml: &str, csv: &str) -> Vec<PointLight> {
     load(toml, &[("l.csv", csv.as_bytes())]).point_lights
@@ -97,6 +97,43 @@ fn area_lights_of_every_shape() {
     assert!(matches!(line.shape, AreaShape::Line { radius: 0.1, .. }));
     let AreaShape::Polygon { vertices, holes, uvs } = &polygon.shape else { panic!("a polygon") };
     assert_eq!((vertices.len(), holes.len(), uvs.as_ref().map(Vec::len)), (5, 1, Some(5)));
+}
+
+/// The border goes on as far as coordinates reach, which then lie within; a second light shares it, one within does not.
+#[test]
+fn coordinates_beyond_a_texture_widen_it() {
+    let light = |uvs: &str| {
+        format!(
+            "[[light]]\ntype = \"polygon\"\nvertices = [[0,0,0],[1,0,0],[1,1,0],[0,1,0]]\nradiance = [1, 1, 1]\n\
+             texture = \"t.png\"\nuvs = {uvs}\n"
+        )
+    };
+    let texture = png(4, 2, |x, y| [x as u8, y as u8, 0, 255]);
+    let [beyond, within] = ["[[-0.5,0],[1,0],[1,1.5],[-0.5,1.5]]", "[[0,0],[1,0],[1,1],[0,1]]"].map(light);
+    let scene = load(&[within.as_str(), &beyond, &beyond].concat(), &[("t.png", &texture)]);
+    assert_eq!(
+        scene.area_lights.iter().map(|light| light.texture).collect::<Vec<_>>(),
+        [Some(0), Some(1), Some(1)]
+    );
+    let wide = &scene.textures[1];
+    assert_eq!((wide.width, wide.height), (6, 3));
+    let amas::scene::Texels::Srgb8(texels) = &wide.texels else { panic!("8 bits") };
+    assert_eq!(texels.iter().map(|t| t[0]).collect::<Vec<_>>(), [0, 0, 0, 1, 2, 3].repeat(3));
+    assert_eq!(texels.iter().step_by(6).map(|t| t[1]).collect::<Vec<_>>(), [0, 0, 1]);
+    let AreaShape::Polygon { uvs: Some(uvs), .. } = &scene.area_lights[1].shape else { panic!("a polygon") };
+    assert_eq!(*uvs, [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+    let error = try_load(&light("[[0,0],[9999,0],[9999,1],[0,1]]"), &[("t.png", &texture)], &[]).unwrap_err();
+    assert!(error.to_string().starts_with("test.toml:10: `uvs` reach over 39996 × 2"), "{error}");
+}
+
+#[test]
+fn a_line_thicker_than_long_is_a_warning() {
+    let line = |radius: f32| {
+        let keys = "type = \"line\"\na = [0, 1, 0]\nb = [0.2, 1, 0]\nradiance = [1, 1, 1]";
+        load(&format!("[[light]]\n{keys}\nradius = {radius}\n"), &[]).warnings
+    };
+    assert!(line(0.19).is_empty());
+    assert!(line(0.21)[0].starts_with("test.toml:10: the line is thicker"), "{:?}", line(0.21));
 }
 
 #[test]

@@ -28,8 +28,15 @@ fn try_load(toml: &str, files: &[(&str, &[u8])], set: &[(&str, &str)]) -> amas::
     load_embedded("test.toml", &format!("{CAMERA}{toml}"), files, &set)
 }
 
+/// Whatever loading warns of has a place and a remedy.
 fn load(toml: &str, files: &[(&str, &[u8])]) -> Scene {
-    try_load(toml, files, &[]).unwrap()
+    let scene = try_load(toml, files, &[]).unwrap();
+    for warning in &scene.warnings {
+        let place = warning.split_once(": ").and_then(|(place, _)| place.rsplit_once(':'));
+        assert!(place.is_some_and(|(_, line)| line.parse::<u32>().is_ok_and(|line| line > 0)), "{warning}");
+        assert!(warning.split_once("\n  remedy: ").is_some_and(|(_, remedy)| remedy.len() > 5), "{warning}");
+    }
+    scene
 }
 
 /// The one mesh of an OBJ, with further keys of its `[[mesh]]`.

@@ -1,6 +1,6 @@
 //! Options of the subcommands that make tables and figures.
 
-use super::{DeviceOptions, parse_pair, parse_size};
+use super::{DeviceOptions, parse_count, parse_set, parse_size, parse_whole};
 use clap::{Args as ClapArgs, ValueEnum};
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ pub(in crate::app) struct FitOptions {
     /// What a fit minimises
     #[arg(long, value_enum, default_value = "l1")]
     pub(in crate::app) objective: ObjectiveName,
-    /// Existing folder for error maps (.png) and figures (.csv) of every layer
+    /// Folder for error maps (.png) and figures (.csv) of every layer; it is made in a folder that exists
     #[arg(long, value_name = "DIR")]
     pub(in crate::app) maps: Option<PathBuf>,
     /// Fit only this layer, several times
@@ -36,18 +36,18 @@ pub(in crate::app) struct BenchOptions {
     #[arg(long, value_name = "NAME", value_enum)]
     pub(in crate::app) suite: Vec<Suite>,
     /// Picture size in pixels [default: the scene's]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
     pub(in crate::app) size: Option<[u32; 2]>,
     /// Override a key of [render], such as render.front_end=fragment or compute
-    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_pair)]
+    #[arg(long, value_name = "KEY=VALUE", value_parser = parse_set)]
     pub(in crate::app) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(in crate::app) device: DeviceOptions,
     /// Rounds: frames measured of each scene
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = parse_count, allow_negative_numbers = true)]
     pub(in crate::app) frames: u32,
     /// Frames of each rendered first and not measured
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = parse_whole::<u32>, allow_negative_numbers = true)]
     pub(in crate::app) warmup: u32,
     /// Also measure what a pair of pixel and light costs at least: its arithmetic alone, its fetches alone
     #[arg(long)]
@@ -102,7 +102,7 @@ pub(in crate::app) enum Chapter {
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::app) struct ReportOptions {
-    /// Existing folder for the files
+    /// Folder for the files; it is made in a folder that exists
     #[arg(long, value_name = "DIR", default_value = ".")]
     pub(in crate::app) out: PathBuf,
     /// One chapter only

@@ -13,7 +13,7 @@ mod scaling;
 mod subject;
 
 use super::args::{Chapter, ReportOptions};
-use super::outputs::check_folder;
+use super::outputs::{check_folder, make_folder};
 use super::report;
 use super::terminal::print;
 use crate::error::Result;
@@ -46,6 +46,7 @@ const CHAPTERS: [Row; 8] = [
 ];
 
 pub(super) fn run(options: &ReportOptions) -> Result<()> {
+    make_folder(&options.out)?;
     let wanted = |row: &&Row| options.chapter.is_none_or(|only| only == row.chapter);
     let files = CHAPTERS.iter().filter(wanted).flat_map(|row| row.files);
     files.into_iter().try_for_each(|name| check_folder(&options.out.join(name)))?;

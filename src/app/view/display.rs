@@ -33,7 +33,7 @@ pub(super) fn missing(reason: &str) -> Error {
         .strip_prefix("os error at ")
         .and_then(|rest| rest.split_once(": "))
         .map_or(reason, |(_, reason)| reason);
-    Error::NoDevice {
+    Error::NoDisplay {
         cause: format!("there is no display to open a window on ({})", reason.trim_end_matches('.')),
         remedy: "start it from a desktop session, and run ./setup for the display's libraries".into(),
     }
@@ -41,11 +41,10 @@ pub(super) fn missing(reason: &str) -> Error {
 
 /// Whatever keeps the window shut, the same picture can be had without it.
 pub(super) fn advise(error: Error) -> Error {
+    let without = |remedy: String| format!("{remedy}; or use `amas render`, which needs no window");
     match error {
-        Error::NoDevice { cause, remedy } => Error::NoDevice {
-            cause,
-            remedy: format!("{remedy}; or use `amas render`, which needs no window"),
-        },
+        Error::NoDevice { cause, remedy } => Error::NoDevice { cause, remedy: without(remedy) },
+        Error::NoDisplay { cause, remedy } => Error::NoDisplay { cause, remedy: without(remedy) },
         other => other,
     }
 }

@@ -28,10 +28,12 @@ mod watch;
 mod worker;
 
 use super::args::{SceneOptions, ViewOptions};
+use super::outputs::{Kind, kind};
 use super::report;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::frame::Timings;
 use crate::gpu::Replaced;
+use crate::image::HdrImage;
 use capture::Captures;
 use gathering::Done;
 use input::Pointer;
@@ -69,7 +71,21 @@ pub(super) fn run(options: &ViewOptions) -> Result<()> {
     let startup = Startup::new(options.startup);
     // What is wrong with the scene file itself is said before a window opens.
     let settings = options.scene.origin().settings(&options.scene.overrides())?;
+    check(options)?;
     open(options, settings.size, startup).map_err(display::advise)
+}
+
+/// What else the options name is there, and is what it is for.
+fn check(options: &ViewOptions) -> Result<()> {
+    if let Some(file) = &options.compare {
+        if kind(file)? == Kind::Display {
+            let cause =
+                format!("--compare {}: 8 bits of a display hold no light to compare with", file.display());
+            return Err(Error::usage(cause, "give a .exr or .pfm, as `amas reference` writes them"));
+        }
+        HdrImage::load(file)?;
+    }
+    options.glsl.as_deref().map_or(Ok(()), shaders::check)
 }
 
 fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {

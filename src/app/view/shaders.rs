@@ -3,6 +3,7 @@
 //! What Rust and GLSL share, `src/shared.rs`, is part of the program: a change there asks for a new build.
 
 use super::Event;
+use crate::error::Error;
 use crate::gpu::{Replaced, compile, shaders};
 use crate::shared;
 use std::collections::{BTreeMap, BTreeSet};
@@ -48,6 +49,19 @@ pub(super) fn watch(folder: Option<&Path>, proxy: EventLoopProxy<Event>) -> bool
         }
     });
     true
+}
+
+/// A folder that the user names has sources of shaders.
+pub(super) fn check(folder: &Path) -> crate::error::Result<()> {
+    let cause = match () {
+        () if !folder.is_dir() => "there is no such folder",
+        () if !shaders::ALL.iter().any(|shader| folder.join(shader.name).is_file()) => {
+            "it has none of amas's shaders"
+        }
+        () => return Ok(()),
+    };
+    let remedy = "name the folder `glsl` of a checkout of amas, or leave out --glsl";
+    Err(Error::usage(format!("--glsl {}: {cause}", folder.display()), remedy))
 }
 
 fn stamps(root: &Path) -> Stamps {

@@ -28,7 +28,7 @@ pub(super) struct Stage {
 pub(super) fn window(event_loop: &ActiveEventLoop, [width, height]: [u32; 2]) -> Result<Arc<Window>> {
     let attributes =
         Window::default_attributes().with_title("amas").with_inner_size(PhysicalSize::new(width, height));
-    let window = event_loop.create_window(attributes).map_err(|error| Error::NoDevice {
+    let window = event_loop.create_window(attributes).map_err(|error| Error::NoDisplay {
         cause: format!("the window cannot be opened ({error})"),
         remedy: "check the display".into(),
     })?;

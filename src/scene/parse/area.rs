@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 
 use super::{Table, Value};
 use crate::error::Result;
-use crate::scene::decode::Use;
+use crate::scene::decode::{Fault, Use};
 use crate::scene::light::{AreaLight, AreaShape};
 use crate::scene::load::Loader;
 use crate::scene::outline;
@@ -27,22 +27,38 @@ pub(super) fn light(loader: &mut Loader, table: &Table, shape: &str) -> Result<A
         _ => &["a", "b", "radius"],
     };
     table.allow(&[own, &["type", "radiance", "two_sided", "visible"]].concat())?;
-    let shape = match shape {
+    let mut shape = match shape {
         "polygon" => polygon(table)?,
         "rect" => {
             let (center, u, v) = axes(table)?;
             AreaShape::Rect { center, u, v }
         }
         "disk" => disk(table)?,
-        _ => line(table)?,
+        _ => line(loader, table)?,
     };
+    let texture = texture(loader, table, &mut shape)?;
     Ok(AreaLight {
         shape,
         radiance: table.require("radiance", "[20.0, 20.0, 20.0]")?.color()?.into(),
         two_sided: table.get_or("two_sided", false, Value::boolean)?,
         visible: table.get_or("visible", true, Value::boolean)?,
-        texture: table.get("texture").map(|value| loader.texture(&value, Use::Color)).transpose()?,
+        texture,
     })
+}
+
+/// The texture, with as much of its border as a polygon's coordinates reach beyond it, where these then lie.
+fn texture(loader: &mut Loader, table: &Table, shape: &mut AreaShape) -> Result<Option<u32>> {
+    let Some(value) = table.get("texture") else {
+        return Ok(None);
+    };
+    let index = loader.texture(&value, Use::Color)?;
+    match (shape, table.get("uvs")) {
+        (AreaShape::Polygon { uvs: Some(uvs), .. }, Some(value)) => {
+            let reached = loader.textures.reach(index, uvs);
+            reached.map(Some).map_err(|Fault { cause, remedy }| value.error(cause, remedy))
+        }
+        _ => Ok(Some(index)),
+    }
 }
 
 /// `center`, `u` and `v`, with u × v ≠ 0.
@@ -78,14 +94,23 @@ fn disk(table: &Table) -> Result<AreaShape> {
     Ok(AreaShape::Disk { center, u: (u * radius).as_vec3(), v: (v * radius).as_vec3() })
 }
 
-fn line(table: &Table) -> Result<AreaShape> {
+fn line(loader: &mut Loader, table: &Table) -> Result<AreaShape> {
     let a = table.require("a", "[-1.0, 2.0, 0.0]")?.vec3()?.as_vec3();
     let end = table.require("b", "[1.0, 2.0, 0.0]")?;
     let b = end.vec3()?.as_vec3();
     if a == b {
         return Err(end.error("is the same point as `a`", "give the line two different ends"));
     }
-    let radius = table.require("radius", "0.02")?.positive()? as f32;
+    let value = table.require("radius", "0.02")?;
+    let radius = value.positive()? as f32;
+    let length = (b.as_dvec3() - a.as_dvec3()).length();
+    if f64::from(radius) > length {
+        let cause = format!(
+            "the line is thicker, {radius} m in radius, than its {length} m of length: on surfaces nearer to its axis than 3 \
+             radii its light may be 4 % off, and more"
+        );
+        loader.warn(&value.place(), cause, "make it thinner, or use a disk or rectangles");
+    }
     Ok(AreaShape::Line { a, b, radius })
 }
 
@@ -102,6 +127,11 @@ fn polygon(table: &Table) -> Result<AreaShape> {
             );
         }
         for item in items {
+            // A single hole without brackets of its own.
+            if item.items("").is_ok_and(|points| points.first().is_some_and(|point| !point.is_array())) {
+                let remedy = "put each hole into brackets: `holes = [[[0, 2, 0], [0, 2, 1], [1, 2, 0]]]`";
+                return Err(item.error("is a point, but must be an array of points", remedy));
+            }
             let hole = outline_loop(&item)?;
             let apart = plane
                 .check_hole(&vertices, &hole)

@@ -45,7 +45,7 @@ pub(in crate::scene) fn materials(loader: &mut Loader, root: &Table) -> Result<(
             );
         }
         let material = material(loader, &table, name)?;
-        loader.add_material(material);
+        loader.add_material(material, &table.place());
     }
     Ok(())
 }

@@ -40,7 +40,8 @@ fn from_obj(loader: &mut Loader, table: &Table, file: &Value) -> Result<()> {
     table.allow(&[&COMMON_KEYS[..], &["obj", "materials", "normals"]].concat())?;
     let path = loader.find(file)?;
     let obj = loader.obj(&path)?;
-    let binding = Binding { all: material(loader, table)?, by_name: remap(loader, table, &obj)? };
+    let by_name = remap(loader, table, &obj)?;
+    let binding = Binding { place: table.place(), all: material(loader, table)?, by_name };
     let choices = [("smooth", Normals::Smooth), ("flat", Normals::Flat)];
     let normals = table.get_or("normals", Normals::Smooth, |value| value.choice(&choices))?;
     add(loader, table, &obj.groups, normals, &binding, Some((&path, &obj)))
@@ -69,7 +70,7 @@ fn from_shape(loader: &mut Loader, table: &Table, shape: &Value) -> Result<()> {
         }
         other => return Err(shape.unknown(other, ["plane", "box", "sphere", "disk"].into_iter())),
     };
-    let binding = Binding { all: material(loader, table)?, ..Binding::default() };
+    let binding = Binding { place: table.place(), all: material(loader, table)?, ..Binding::default() };
     add(loader, table, &[group], Normals::Smooth, &binding, None)
 }
 
@@ -123,8 +124,8 @@ fn remap(
             let best = names.by_ref().map(|name| (strsim::jaro_winkler(name, value.key()), name));
             let best = best.max_by(|a, b| a.0.total_cmp(&b.0));
             let hint = best.map(|(_, name)| format!("; the nearest is \"{name}\"")).unwrap_or_default();
-            let place = table.place();
-            loader.warn(format!("{place}: `materials` names \"{}\", which the OBJ lacks{hint}", value.key()));
+            let cause = format!("`materials` names \"{}\", which the OBJ lacks{hint}", value.key());
+            loader.warn(&value.place(), cause, "correct the name, or remove it");
         }
         remap.insert(value.key().to_owned(), index);
     }
@@ -164,7 +165,8 @@ fn add(
     }
     for (name, mut mesh) in meshes {
         if name.is_none() && binding.all.is_none() {
-            loader.warn(format!("{}: faces without a material are drawn grey", table.place()));
+            let cause = "faces without a material are drawn grey";
+            loader.warn(&table.place(), cause, "add `material = \"…\"` to the mesh");
         }
         mesh.material = bind::material(loader, binding, name.as_deref(), obj)?;
         check_uvs(loader, table, &mesh);
@@ -186,8 +188,12 @@ fn check_uvs(loader: &mut Loader, table: &Table, mesh: &Mesh) {
     } else {
         return;
     };
-    let name = &material.name;
-    loader.warn(format!("{}: the material \"{name}\" {cause}", table.place()));
+    let cause = format!("the material \"{}\" {cause}", material.name);
+    loader.warn(
+        &table.place(),
+        cause,
+        "export the OBJ with texture coordinates (vt), or choose another material",
+    );
 }
 
 fn anisotropic(material: &Material) -> bool {

@@ -11,6 +11,7 @@ pub(super) mod material;
 pub(super) mod mesh;
 mod motion;
 pub(super) mod render;
+mod syntax;
 mod value;
 
 use std::ops::Range;
@@ -58,6 +59,11 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// File and line of byte `at`, for warnings.
+    fn place(&self, at: usize) -> String {
+        format!("{}:{}", self.path.display(), self.line(at))
+    }
+
     /// 1-based line of byte `at`.
     fn line(&self, at: usize) -> usize {
         let before = self.text.as_bytes().iter().take(at);
@@ -68,11 +74,7 @@ impl<'a> Source<'a> {
     pub(super) fn syntax(&self, error: &toml::de::Error) -> Error {
         let at = error.span().map_or(0, |span: Range<usize>| span.start);
         let what = error.message().lines().collect::<Vec<_>>().join("; ");
-        self.error(
-            at,
-            format!("not valid TOML: {what}"),
-            "correct the syntax (https://toml.io has the rules)",
-        )
+        self.error(at, format!("not valid TOML: {what}"), syntax::remedy(self.text, at))
     }
 
     /// The whole document as a table.
@@ -156,7 +158,7 @@ impl<'a> Table<'a> {
 
     /// File and line, for warnings.
     pub(super) fn place(&self) -> String {
-        format!("{}:{}", self.source.path.display(), self.source.line(self.start))
+        self.source.place(self.start)
     }
 
     /// An error about the table as a whole.
@@ -168,7 +170,10 @@ impl<'a> Table<'a> {
 /// «did you mean», or the list of what is known.
 pub(super) fn suggestion<'k>(unknown: &str, known: impl Iterator<Item = &'k str>) -> String {
     let known: Vec<&str> = known.collect();
-    let similarity = |name: &str| strsim::jaro_winkler(unknown, name);
+    // Of `indirect.vpls` the last part may be meant.
+    let last = |name: &'k str| name.rsplit('.').next().unwrap_or(name);
+    let similarity =
+        |name: &'k str| strsim::jaro_winkler(unknown, name).max(strsim::jaro_winkler(unknown, last(name)));
     let best = known.iter().copied().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
     match best {
         Some(name) if similarity(name) > 0.75 => format!("did you mean `{name}`?"),

@@ -112,6 +112,10 @@ fn front_end(value: &Value) -> Result<FrontEnd> {
 }
 
 fn indirect(settings: &mut RenderSettings, value: &Value) -> Result<()> {
+    if !value.is_table() {
+        let cause = "must be a table of `vpls` and `bounces`";
+        return Err(value.error(cause, "did you mean `indirect.vpls`, the number of virtual lights?"));
+    }
     let table = value.table()?;
     table.allow(&INDIRECT_KEYS)?;
     table.values().try_for_each(|value| apply(settings, &value))

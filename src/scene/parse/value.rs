@@ -24,6 +24,11 @@ impl<'a> Value<'a> {
         &self.key
     }
 
+    /// File and line, for warnings.
+    pub(in crate::scene) fn place(&self) -> String {
+        self.source.place(self.start)
+    }
+
     /// An error about this value; `cause` goes on after the key's name.
     pub(in crate::scene) fn error(&self, cause: impl AsRef<str>, remedy: impl Into<String>) -> Error {
         self.source.error(self.start, format!("`{}` {}", self.key, cause.as_ref()), remedy)
@@ -35,8 +40,13 @@ impl<'a> Value<'a> {
             DeValue::Array(items) => format!("an array of {}", items.len()),
             other => format!("{} {}", article(other.type_str()), other.type_str()),
         };
-        let key = self.key.split('[').next().unwrap_or_default();
-        self.error(format!("must be {wanted}, but is {found}"), format!("write e.g. `{key} = {example}`"))
+        let cause = format!("must be {wanted}, but is {found}");
+        // A part of an array is written in its place.
+        let remedy = match self.key.contains('[') {
+            true => format!("write e.g. `{example}` there"),
+            false => format!("write e.g. `{} = {example}`", self.key),
+        };
+        self.error(cause, remedy)
     }
 
     /// A finite number of sane size.
