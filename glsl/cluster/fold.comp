@@ -2,8 +2,8 @@
 // the rest is folded into a node for each octant of directions, behind the list.
 //
 // lavapipe reads and writes shared memory lane by lane, whatever the lanes want of it: sums stay in registers until the end.
-// It ends an invocation's loops after 65,535 iterations in all: src/passes/cluster.rs has invocations for a million lights,
-// of which each invocation takes one of every 32 twice, 1.5 iterations a light and 10 a batch.
+// It ends an invocation's loops after 65,535 iterations in all, of which each loop takes one to end: a million lights are 1,024
+// batches of 15 to count and of 41 to take, and src/passes/cluster.rs has invocations for as many.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -31,7 +31,7 @@ const vec3 MEAN_OF_RGB = vec3(1.0 / 3.0);
 const uint BIN_SHIFT = 20u;
 const uint BINS = 2048u;
 // Lights of an iteration that counts them.
-const uint UNROLLED = 2u;
+const uint UNROLLED = 4u;
 
 Cluster here;
 Cluster parent;

@@ -1,7 +1,7 @@
 // The lights that reach a cluster, a batch of groups after the other, in order. Each invocation knows a group's; then they
 // take one light each, whichever group it is of: groups have 0 to 32 of them, and most invocations would wait for others.
 
-const uint BATCH_GROUPS = 16u;
+const uint BATCH_GROUPS = 32u;
 const uint BATCH_LIGHTS = BATCH_GROUPS * LEAF_LIGHTS;
 // Tests of an iteration: lavapipe makes the first of these for parents that are not crowded, too.
 const uint TESTS = 8u;

@@ -29,16 +29,23 @@ ivec3 list_texel(uint texel) {
             int(texel >> (LIST_WIDTH_LOG2 + LIST_HEIGHT_LOG2)));
 }
 
-// Number of the n-th bit that is set.
+// Leaves the lower half of a word of 2 · `width` bits behind if the n-th that is set is not in it.
+void halve(uint width, inout uint word, inout uint n, inout uint at) {
+    uint below = uint(bitCount(word & ((1u << width) - 1u)));
+    bool is_above = n >= below;
+    n -= is_above ? below : 0u;
+    word >>= is_above ? width : 0u;
+    at += is_above ? width : 0u;
+}
+
+// Number of the n-th bit that is set. Not a loop: lavapipe would count its iterations.
 uint nth_bit(uint word, uint n) {
     uint at = 0u;
-    for (uint width = 16u; width > 0u; width >>= 1) {
-        uint below = uint(bitCount(word & ((1u << width) - 1u)));
-        uint skip = n >= below ? width : 0u;
-        n -= n >= below ? below : 0u;
-        word >>= skip;
-        at += skip;
-    }
+    halve(16u, word, n, at);
+    halve(8u, word, n, at);
+    halve(4u, word, n, at);
+    halve(2u, word, n, at);
+    halve(1u, word, n, at);
     return at;
 }
 

@@ -363,6 +363,26 @@ fn cuts_of_too_many_steps_are_given_up_for_every_light() {
     assert_eq!(picture, brute(&world), "every light");
 }
 
+/// 500,000 lights so far away that no node of them stands for its lights, all but 1,500 dark: no cluster's walk over their tree
+/// comes to its end, which leaves each the whole tree to be opened by its pixels. For these it is not too large.
+#[test]
+fn walks_of_too_many_visits_leave_the_tree_to_the_pixels() {
+    let mut all = lights(Kind::Uniform, 502_000);
+    for (i, light) in all[2000..].iter_mut().enumerate() {
+        light.position = (light.position - Vec3::Y) * 1e20;
+        light.intensity *= if i % 333 == 0 { 1.0 } else { 0.0 };
+    }
+    let mut world = world(&matte(0), all);
+    world.render.size = [16, 16];
+    let mut rig = cut(&world, 0.01);
+    let picture = rig.render();
+    let counters = rig.frame.counters();
+    assert_eq!((counters.cut_entries, counters.cut_given_up), (counters.occupied, 0), "a root each");
+    assert!(counters.occupied > 0);
+    let energy = energy(&picture, &brute(&world));
+    assert!(energy.abs() <= 0.01, "{energy}");
+}
+
 /// An error of 0 or next to it evaluates every light, and so does a scene with few of them.
 #[test]
 fn no_error_is_no_cut() {

@@ -218,6 +218,19 @@ fn one_point_over_wide_clusters() {
     }
 }
 
+/// A million lights at one point in every list, each of which each invocation of lavapipe has iterations for: it ends a shader's
+/// loops after 65,535, silently, and what is folded by then would be all.
+#[test]
+fn a_million_lights_in_a_list() {
+    let lights = points(1 << 20, [[0.0, 1.5, 1.0]; 2], 20.0);
+    let text = format!("{FIVE_MATERIALS}{lights}").replace("size = [96, 64]", "size = [16, 16]");
+    let truth = truth(&text);
+    let mut rig = Rig::new(scene(&text));
+    let energy = energy(&rig.render()) / energy(&truth) - 1.0;
+    assert_eq!(rig.frame.counters().longest, 1 << 20);
+    assert!(energy.abs() < 0.01, "energy {energy:+.2e}");
+}
+
 /// Two planes far apart, so that neither is at the origin, and the camera over one of them.
 #[test]
 fn far_from_the_origin() {
