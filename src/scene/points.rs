@@ -1,9 +1,10 @@
 //! Many point lights at once: from a CSV file, or from a generator.
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use super::light::PointLight;
 use super::parse::LARGEST;
@@ -19,19 +20,56 @@ const COLUMNS: [&str; 7] = ["x", "y", "z", "r", "g", "b", "range"];
 /// # Errors
 /// [`Error::Input`] with the line of a wrong header, field count or number.
 pub(super) fn read_csv(file: &Path, text: &str) -> Result<Vec<PointLight>> {
-    let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
-    let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
-    let Some((number, header)) = lines.next() else {
+    let mut start = 0;
+    let mut lines = text.split_inclusive('\n').enumerate();
+    let header = lines.find_map(|(index, line)| {
+        start += line.len();
+        meant(line).map(|line| (index + 1, line))
+    });
+    let Some((number, header)) = header else {
         return Err(Error::input(file, 1, "the file is empty", HEADER_REMEDY));
     };
     let columns = columns(header).map_err(|cause| Error::input(file, number, cause, HEADER_REMEDY))?;
-    let light = |(number, line)| {
-        row(line, &columns).map_err(|cause| {
+    let parts: Vec<_> = parts(text, start, rayon::current_num_threads())
+        .into_par_iter()
+        .map(|part| (part.start, rows(&text[part], &columns)))
+        .collect();
+    let mut lights = Vec::new();
+    for (start, rows) in parts {
+        lights.append(&mut rows.map_err(|(index, cause)| {
+            let number = 1 + text[..start].matches('\n').count() + index;
             let remedy = "write finite numbers: x,y,z in metres, r,g,b ≥ 0, range > 0 or empty";
             Error::input(file, number, cause, remedy)
-        })
+        })?);
+    }
+    Ok(lights)
+}
+
+/// A line without the spaces around it, if it is not blank and no comment.
+fn meant(line: &str) -> Option<&str> {
+    let line = line.trim();
+    (!line.is_empty() && !line.starts_with('#')).then_some(line)
+}
+
+/// The text from byte `start` on in about so many parts of whole lines.
+fn parts(text: &str, start: usize, count: usize) -> Vec<Range<usize>> {
+    let whole = |at: usize| match text.as_bytes()[at..].iter().position(|&byte| byte == b'\n') {
+        Some(end) => at + end + 1,
+        None => text.len(),
     };
-    lines.map(light).collect()
+    let mut begin = start;
+    let part = |part: usize| {
+        let end = whole((start + (text.len() - start) * part / count).max(begin));
+        let begin = std::mem::replace(&mut begin, end);
+        begin..end
+    };
+    (1..=count).map(part).collect()
+}
+
+/// Lights of whole lines, or the index of the first bad line and what is wrong with it.
+fn rows(text: &str, columns: &[usize]) -> Result<Vec<PointLight>, (usize, String)> {
+    let lines = text.lines().enumerate().filter_map(|(index, line)| Some((index, meant(line)?)));
+    lines.map(|(index, line)| row(line, columns).map_err(|cause| (index, cause))).collect()
 }
 
 /// For each column of the file, its place in [`COLUMNS`].
@@ -137,4 +175,39 @@ fn hsv(hue: f64, saturation: f64) -> DVec3 {
         1.0 - saturation * distance.min(4.0 - distance).clamp(0.0, 1.0)
     };
     DVec3::new(channel(5.0), channel(3.0), channel(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever the number of parts, every line is in one of them, and a bad one is told by its number in the file.
+    #[test]
+    fn parts_are_the_whole() {
+        let row =
+            |i: usize| if i.is_multiple_of(7) { "# é\r\n\n".into() } else { format!("{i},0,0,1,1,1\r\n") };
+        let text =
+            "\n# head\nx,y,z,r,g,b\n".to_owned() + &(1..400).map(row).collect::<String>() + "400,0,0,1,1,1";
+        let start = text.find("1,0,0").unwrap();
+        for count in [1, 2, 3, 64, 1000] {
+            let parts = parts(&text, start, count);
+            assert_eq!(parts.len(), count);
+            assert_eq!(parts.iter().map(|part| &text[part.clone()]).collect::<String>(), text[start..]);
+            assert!(parts.windows(2).all(|pair| pair[0].end == pair[1].start));
+        }
+        let lights = read_csv(Path::new("a.csv"), &text).unwrap();
+        let wanted = (1..=400).filter(|i: &usize| *i == 400 || !i.is_multiple_of(7)).map(|i| i as f32);
+        assert_eq!(
+            lights.iter().map(|light| light.position.x).collect::<Vec<_>>(),
+            wanted.collect::<Vec<_>>()
+        );
+        for bad in [1, 150, 300, 399] {
+            let text = text
+                .replace(&format!("\n{bad},0,0"), &format!("\n{bad},0,nan"))
+                .replace("\n398,0,0", "\n398,0,?");
+            let line = 1 + text.lines().position(|line| line.contains("nan") || line.contains('?')).unwrap();
+            let message = read_csv(Path::new("a.csv"), &text).unwrap_err().to_string();
+            assert!(message.starts_with(&format!("a.csv:{line}")), "{message}, line {line}");
+        }
+    }
 }
