@@ -1,9 +1,11 @@
-//! The lines of an OBJ file: each is checked, and attributes and faces are noted.
+//! The first pass over an OBJ file: checks every line, and writes the file again in a plain dialect.
+//!
+//! The dialect is `v`, `vt` and `vn` of fixed length, faces of absolute indices, and `usemtl` with the index of a
+//! [`Scan::tags`] entry.
 
 use std::borrow::Cow;
-use std::ops::Range;
-
-use glam::Vec3;
+use std::collections::HashMap;
+use std::fmt::Write;
 
 use super::parse::LARGEST;
 
@@ -26,32 +28,23 @@ pub(super) fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, 
 /// Cause and remedy of a bad line.
 pub(super) type Bad = (String, &'static str);
 
-/// A polygon of three corners or more.
-pub(super) struct Face {
-    /// Of [`Scan::corners`].
-    pub(super) corners: Range<usize>,
-    /// Index into [`Scan::materials`].
-    pub(super) material: Option<usize>,
-    /// Every corner has texture coordinates.
-    pub(super) uvs: bool,
-    /// Every corner has a normal.
-    pub(super) normals: bool,
-}
-
-/// What a file's lines say.
+/// The first pass over the file.
 #[derive(Default)]
 pub(super) struct Scan {
-    pub(super) positions: Vec<Vec3>,
-    pub(super) uvs: Vec<[f32; 2]>,
-    pub(super) normals: Vec<Vec3>,
-    /// 0-based indices of position, texture coordinates and normal; 0 for what the face's corners have not all.
-    pub(super) corners: Vec<[u32; 3]>,
-    pub(super) faces: Vec<Face>,
+    /// The file in tobj's plain dialect.
+    pub(super) plain: String,
+    /// How many `v`, `vt` and `vn` there are so far.
+    counts: [usize; 3],
     /// Names by `usemtl`, in order of appearance.
     pub(super) materials: Vec<String>,
     pub(super) libraries: Vec<String>,
     /// The `usemtl` in force, as an index into `materials`.
     material: Option<usize>,
+    /// Material, and whether texture coordinates and normals are there.
+    pub(super) tags: Vec<(Option<usize>, bool, bool)>,
+    tag_index: HashMap<(Option<usize>, bool, bool), usize>,
+    tag: Option<usize>,
+    face: Vec<[Option<usize>; 3]>,
 }
 
 impl Scan {
@@ -59,22 +52,9 @@ impl Scan {
     pub(super) fn line(&mut self, line: &str) -> Result<(), Bad> {
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         match keyword {
-            "v" => {
-                let position = within("v", numbers("v", rest, 3)?)?;
-                self.positions.push(position.into());
-                Ok(())
-            }
-            "vt" => {
-                let [u, v, _] = within("vt", numbers("vt", rest, 2)?)?;
-                self.uvs.push([u, v]);
-                Ok(())
-            }
-            "vn" => {
-                // A zero normal is recomputed from the faces.
-                let normal = within("vn", numbers("vn", rest, 3)?).unwrap_or_default();
-                self.normals.push(normal.into());
-                Ok(())
-            }
+            "v" => self.numbers(0, "v", rest, 3),
+            "vt" => self.numbers(1, "vt", rest, 2),
+            "vn" => self.numbers(2, "vn", rest, 3),
             "f" | "fo" => self.face(rest),
             "usemtl" => {
                 self.use_material(rest.trim());
@@ -88,6 +68,41 @@ impl Scan {
         }
     }
 
+    /// `v`, `vt` or `vn`: the first `count` numbers. What may follow (weights, colours, a third texture
+    /// coordinate) has no meaning here.
+    fn numbers(&mut self, attribute: usize, keyword: &str, rest: &str, count: usize) -> Result<(), Bad> {
+        let mut values = [0.0_f32; 3];
+        let mut found = 0;
+        for (value, token) in values.iter_mut().zip(rest.split_whitespace()).take(count) {
+            *value = number(token).ok_or_else(|| {
+                (format!("`{keyword}` has \"{token}\", which is not a number"), "write numbers")
+            })?;
+            found += 1;
+        }
+        let least = if attribute == 1 { 1 } else { count };
+        if found < least {
+            let cause = format!("`{keyword}` has {found} numbers instead of {count}");
+            return Err((cause, "export the model again; the file is damaged"));
+        }
+        if !values.iter().all(|x| x.abs() <= LARGEST as f32) {
+            if attribute != 2 {
+                let cause = format!("`{keyword}` is not finite, or larger than {LARGEST:e}");
+                return Err((cause, "correct the number, or export the model again"));
+            }
+            // A zero normal is recomputed from the faces.
+            values = [0.0; 3];
+        }
+        self.counts[attribute] += 1;
+        let [x, y, z] = values;
+        // Writing to a String cannot fail.
+        let _ = if count == 3 {
+            writeln!(self.plain, "{keyword} {x} {y} {z}")
+        } else {
+            writeln!(self.plain, "{keyword} {x} {y}")
+        };
+        Ok(())
+    }
+
     fn use_material(&mut self, name: &str) {
         let known = self.materials.iter().position(|other| other == name);
         self.material = known.or_else(|| {
@@ -97,19 +112,17 @@ impl Scan {
     }
 
     fn face(&mut self, rest: &str) -> Result<(), Bad> {
-        let first = self.corners.len();
-        let (mut uvs, mut normals) = (true, true);
+        let mut face = std::mem::take(&mut self.face);
+        face.clear();
         for token in rest.split_whitespace().take_while(|token| !token.starts_with('#')) {
-            let [v, vt, vn] = self.corner(token)?;
-            (uvs, normals) = (uvs && vt.is_some(), normals && vn.is_some());
-            self.corners.push([v, vt, vn].map(|index| index.unwrap_or_default() as u32));
+            face.push(self.corner(token)?);
         }
-        let corners = first..self.corners.len();
-        if corners.len() < 3 {
-            self.corners.truncate(first);
-        } else {
-            self.faces.push(Face { corners, material: self.material, uvs, normals });
+        if face.len() >= 3 {
+            let has = |attribute: usize| face.iter().all(|corner| corner[attribute].is_some());
+            self.switch_tag((self.material, has(1), has(2)));
+            self.write_face(&face, has(1), has(2));
         }
+        self.face = face;
         Ok(())
     }
 
@@ -117,10 +130,9 @@ impl Scan {
     fn corner(&self, token: &str) -> Result<[Option<usize>; 3], Bad> {
         const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
         let bad = || (format!("`f` has the corner \"{token}\""), "write corners as 1, 1/2, 1//3 or 1/2/3");
-        let counts = [self.positions.len(), self.uvs.len(), self.normals.len()];
         let mut corner = [None; 3];
         for (attribute, part) in token.split('/').enumerate() {
-            let count = *counts.get(attribute).ok_or_else(bad)?;
+            let count = *self.counts.get(attribute).ok_or_else(bad)?;
             if part.is_empty() {
                 continue;
             }
@@ -135,35 +147,30 @@ impl Scan {
         }
         if corner[0].is_none() { Err(bad()) } else { Ok(corner) }
     }
-}
 
-/// The first `count` numbers of `v`, `vt` or `vn`. What may follow (weights, colours, a third texture coordinate) has no
-/// meaning here; a second texture coordinate may be missing.
-fn numbers(keyword: &str, rest: &str, count: usize) -> Result<[f32; 3], Bad> {
-    let mut values = [0.0_f32; 3];
-    let mut found = 0;
-    for (value, token) in values.iter_mut().zip(rest.split_whitespace()).take(count) {
-        *value = number(token).ok_or_else(|| {
-            (format!("`{keyword}` has \"{token}\", which is not a number"), "write numbers")
-        })?;
-        found += 1;
+    fn switch_tag(&mut self, key: (Option<usize>, bool, bool)) {
+        let tag = *self.tag_index.entry(key).or_insert_with(|| {
+            self.tags.push(key);
+            self.tags.len() - 1
+        });
+        if self.tag != Some(tag) {
+            self.tag = Some(tag);
+            let _ = writeln!(self.plain, "usemtl {tag}");
+        }
     }
-    let least = if count == 2 { 1 } else { count };
-    if found < least {
-        let cause = format!("`{keyword}` has {found} numbers instead of {count}");
-        return Err((cause, "export the model again; the file is damaged"));
-    }
-    Ok(values)
-}
 
-/// Numbers that are finite and sane.
-fn within(keyword: &str, values: [f32; 3]) -> Result<[f32; 3], Bad> {
-    match values.iter().all(|x| x.abs() <= LARGEST as f32) {
-        true => Ok(values),
-        false => Err((
-            format!("`{keyword}` is not finite, or larger than {LARGEST:e}"),
-            "correct the number, or export the model again",
-        )),
+    fn write_face(&mut self, face: &[[Option<usize>; 3]], with_uv: bool, with_normal: bool) {
+        self.plain.push('f');
+        for corner in face {
+            let [v, vt, vn] = corner.map(|index| index.unwrap_or_default() + 1);
+            let _ = match (with_uv, with_normal) {
+                (true, true) => write!(self.plain, " {v}/{vt}/{vn}"),
+                (true, false) => write!(self.plain, " {v}/{vt}"),
+                (false, true) => write!(self.plain, " {v}//{vn}"),
+                (false, false) => write!(self.plain, " {v}"),
+            };
+        }
+        self.plain.push('\n');
     }
 }
 
