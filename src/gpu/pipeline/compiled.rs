@@ -110,7 +110,7 @@ mod tests {
     use std::time::Duration;
 
     fn open() -> (Arc<Device>, Arc<PipelineLayout>) {
-        let options = Options { device: Some("llvmpipe".into()), validate: true };
+        let options = Options { device: Some("llvmpipe".into()), validate: true, ray_queries: None };
         let device = Device::open(&options).unwrap();
         let layout = PipelineLayout::new(&device, &[shared::probe::BINDINGS, shared::scene::BINDINGS]);
         (device.clone(), Arc::new(layout.unwrap()))
@@ -138,8 +138,8 @@ mod tests {
         let third = ComputePipeline::new(&device, &again, PROBE_BSDF_COMP, &of(0)).unwrap();
         assert!(Arc::ptr_eq(&first.raw, &third.raw), "the same under a layout of the same tables");
         // Other words under the same name: what hot reload does.
-        let words = PROBE_BSDF_COMP.words();
-        device.replace_shaders([(PROBE_BSDF_COMP.name, words)].into());
+        let words = PROBE_BSDF_COMP.words(false);
+        device.replace_shaders([((PROBE_BSDF_COMP.name, false), words)].into());
         assert!(!Arc::ptr_eq(&first.raw, &make(0).raw), "a shader that has changed");
         device.replace_shaders(HashMap::new());
         assert!(Arc::ptr_eq(&first.raw, &make(0).raw), "the shader as it was");
