@@ -102,7 +102,7 @@ mod tests {
         // Rows that take longer come one by one.
         assert_eq!(tenth(45, [0.0, 30.0, 0.0], 50.0), (30.0, 45));
         // The frame's end comes with its last row alone.
-        assert_eq!(tenth(45, [5.0, 1.0, 14.0], 50.0), (15.0, 6));
+        assert_eq!(tenth(45, [5.0, 1.0, 14.0], 50.0), (15.0, 7));
         assert_eq!(tenth(1, [5.0, 1.0, 14.0], 50.0), (20.0, 1));
     }
 }
