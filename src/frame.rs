@@ -10,6 +10,7 @@ mod gather;
 mod pick;
 mod results;
 mod retune;
+mod room;
 mod settings;
 mod timing;
 mod views;
@@ -159,33 +160,6 @@ impl Frame {
         Ok(watch.stop().after(lights))
     }
 
-    /// Makes the images anew for a picture of another size; pipelines stay.
-    ///
-    /// # Errors
-    /// [`crate::Error::Vulkan`] where memory is short.
-    pub fn resize(&mut self, size: [u32; 2]) -> Result<()> {
-        self.settings.size = size;
-        self.targets =
-            Targets::new(&self.device, size, [self.work.resolve, self.work.cut], self.settings.encoding)?;
-        self.prepass.resize(&self.device, &self.targets)?;
-        self.forward.resize(&self.device, &self.targets)?;
-        if let Some(gather) = &mut self.gather {
-            gather.resize(&self.device, &self.targets)?;
-        }
-        let now = self.lists.capacity;
-        let start = Capacity::start(tiles_of(size), self.work.lists, now.mask);
-        let capacity = Capacity { folds: now.folds, ..start };
-        if let Some(resolve) = &mut self.resolve {
-            resolve.resize(&self.targets);
-            resolve.grow(&self.device, &self.scene, capacity.clusters)?;
-        }
-        self.lists = ClusterTargets::new(&self.device, tiles_of(size), capacity)?;
-        self.samples = 0;
-        self.forget_gathered();
-        self.bind();
-        Ok(())
-    }
-
     /// Moves the lights that move, unless they are there already; what that took.
     fn move_lights(&self, time: f64) -> Result<Option<Timings>> {
         if !self.scene.moves() {
@@ -232,29 +206,6 @@ impl Frame {
             return Ok(false);
         }
         Ok(true)
-    }
-
-    /// From now on evaluates every light without a range: some pixel's cut asked for more steps than a draw may have.
-    fn give_up_cuts(&mut self) -> Result<()> {
-        self.renew(self.settings, Work { cut: false, unranged: true, ..self.work })
-    }
-
-    /// Makes room, and the passes that fold lists where this frame is the first to need them.
-    fn grow(&mut self, capacity: Capacity) -> Result<()> {
-        let inputs = pass_inputs(&self.device, &self.scene, &self.settings);
-        if capacity.folds && !self.work.folded {
-            self.work.folded = true;
-            self.cluster = Some(ClusterPass::new(&inputs, self.work)?);
-            if self.work.resolve {
-                self.resolve = Some(Resolve::new(&inputs, &self.targets, true, capacity.clusters)?);
-            }
-            self.forward = Forward::new(&inputs, &self.targets, self.work)?;
-        } else if let Some(resolve) = &mut self.resolve {
-            resolve.grow(&self.device, &self.scene, capacity.clusters)?;
-        }
-        self.lists = ClusterTargets::new(&self.device, tiles_of(self.settings.size), capacity)?;
-        self.bind();
-        Ok(())
     }
 
     fn submit(&self, sample: Sample, split: bool, watch: &mut Stopwatch) -> Result<()> {
