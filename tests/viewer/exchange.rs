@@ -40,6 +40,22 @@ impl Client {
         self.message(window, "XdndDrop", [source, 0, 0, 0, 0]);
     }
 
+    /// Asks for a window's end, as the cross in its frame does.
+    pub(super) fn ask_to_close(&mut self, window: u32) {
+        let delete = self.atom("WM_DELETE_WINDOW");
+        self.message(window, "WM_PROTOCOLS", [delete, 0, 0, 0, 0]);
+    }
+
+    /// Takes a window off the screen, or back, as window managers do (EWMH).
+    pub(super) fn minimise(&mut self, window: u32, away: bool) {
+        const ATOM: u32 = 4;
+        let [state, hidden] = ["_NET_WM_STATE", "_NET_WM_STATE_HIDDEN"].map(|name| self.atom(name));
+        let states = if away { vec![hidden] } else { vec![] };
+        let change = words(&[window, state, ATOM, 32, states.len() as u32]);
+        self.send(18, 0, &[change, words(&states)].concat());
+        self.send(if away { 10 } else { 8 }, 0, &words(&[window]));
+    }
+
     fn message(&mut self, window: u32, name: &str, data: [u32; 5]) {
         let kind = self.atom(name);
         let head = u32::from_le_bytes([CLIENT_MESSAGE, 32, 0, 0]);

@@ -12,6 +12,10 @@ use winit::window::WindowId;
 /// Time between two looks at how far loading is.
 const LOOK: Duration = Duration::from_millis(100);
 
+/// Time between two looks at whether a minimised window is back: the window manager may say so after the display asked for
+/// a picture.
+const REST: Duration = Duration::from_millis(250);
+
 /// Time that a display has to say that the window is gone, once the driver fails to draw there.
 const GRACE: Duration = Duration::from_millis(200);
 
@@ -47,10 +51,16 @@ impl Viewer<'_> {
         }
     }
 
+    /// Nobody sees the window.
+    pub(super) fn rests(&self) -> bool {
+        self.hidden || self.minimised
+    }
+
     /// When to draw though nothing happens.
     fn due(&mut self) -> Option<Instant> {
         self.look = self.loading.as_ref().map(|_| self.look.unwrap_or_else(|| Instant::now() + LOOK));
-        self.look.into_iter().chain(self.gui.due()).min()
+        let back = self.minimised.then(|| Instant::now() + REST);
+        self.look.into_iter().chain(self.gui.due()).chain(back).min()
     }
 
     /// Draws because it is due.
@@ -75,8 +85,14 @@ impl Viewer<'_> {
     fn window_said(&mut self, event: WindowEvent) -> Result<()> {
         match event {
             WindowEvent::CloseRequested => self.closing = true,
-            WindowEvent::RedrawRequested if self.hidden => {}
-            WindowEvent::RedrawRequested => return self.draw(),
+            WindowEvent::RedrawRequested => {
+                // X11 does not say it of itself.
+                self.minimised =
+                    self.window.as_ref().is_some_and(|window| window.is_minimized() == Some(true));
+                if !self.rests() {
+                    return self.draw();
+                }
+            }
             WindowEvent::Resized(size) => {
                 if let Some(stage) = &mut self.stage {
                     stage.resized(size);

@@ -116,6 +116,7 @@ fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
         pointer: Pointer::default(),
         gui: Gui::default(),
         hidden: false,
+        minimised: false,
         moves: false,
         gathered: None,
         warned: false,
@@ -164,6 +165,7 @@ struct Viewer<'a> {
     gui: Gui,
     /// Nothing of the window is on screen.
     hidden: bool,
+    minimised: bool,
     /// The view moved when it was last drawn.
     moves: bool,
     /// A frame of gathered light that is not drawn yet.
@@ -253,12 +255,12 @@ impl Viewer<'_> {
 
     /// Gathers light for some milliseconds, where the view rests and there is any to gather; whether there may be more to do.
     fn gather(&mut self) -> Result<bool> {
+        if self.moves || self.rests() || self.closing || self.remaining.is_some() {
+            return Ok(false);
+        }
         let (Some(picture), Some(pilot)) = (&mut self.picture, &self.pilot) else {
             return Ok(false);
         };
-        if self.moves || self.hidden || self.closing || self.remaining.is_some() {
-            return Ok(false);
-        }
         let more = match picture.gather(pilot.camera())? {
             Done::Nothing => false,
             Done::Part => true,
