@@ -6,13 +6,27 @@ use glam::{DVec2, DVec3};
 
 /// Octaves of depth that get slices of their own; what is nearer shares slice 0.
 const OCTAVES: f64 = 10.0;
-/// A tile whose side is at least this share of the lights' range has clusters for each quadrant: `scenes/million.toml`
-/// evaluates 1.64 pairs for a useful one without, 1.29 with all tiles split.
-const SPLIT: f64 = 0.18;
 /// A tile whose side is less than this share of the lights' range needs no slices …
 const FINE: f64 = 0.05;
 /// … within this many ranges of the eye.
 const NEAR: f64 = 4.0;
+
+/// How pixels are parted into clusters. No light depends on it, but how many are tested and evaluated in vain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClusterShape {
+    /// Depth of a cluster, relative to its tile's side.
+    pub depth: f64,
+    /// A tile whose side is at least this share of the lights' range has clusters for each quadrant.
+    pub split: f64,
+}
+
+impl Default for ClusterShape {
+    /// As deep as wide: Olsson et al. 2012. `scenes/million.toml` evaluates 1.64 pairs for a useful one without quadrants, 1.29
+    /// with all tiles split.
+    fn default() -> Self {
+        Self { depth: 1.0, split: 0.18 }
+    }
+}
 
 /// Fills in the camera's part of the constants; the other fields are zero.
 ///
@@ -25,9 +39,10 @@ pub fn camera_constants(
     jitter: [f64; 2],
     bounds: Option<[DVec3; 2]>,
     range: f32,
+    shape: ClusterShape,
 ) -> FrameConstants {
     let view = View::new(camera, size, jitter, bounds);
-    let slices = view.slices(f64::from(range));
+    let slices = view.slices(f64::from(range), shape);
     let rays = view.rays();
     FrameConstants {
         clip_from_eye: view.clip_from_eye(),
@@ -152,7 +167,7 @@ impl<'a> View<'a> {
     }
 
     /// Depth slices where typical lights have the range.
-    fn slices(&self, range: f64) -> Slices {
+    fn slices(&self, range: f64, shape: ClusterShape) -> Slices {
         let most = f64::from(MAX_SLICES - 1);
         let [nearest, farthest] = self.depths;
         let tile = f64::from(TILE_SIZE) * 2.0 * self.half.y / self.size.y;
@@ -162,18 +177,17 @@ impl<'a> View<'a> {
         };
         if self.perspective {
             let fine = (FINE * range / tile).min(NEAR * range).min(farthest / 2.0);
-            // As deep as a tile is wide: Olsson et al. 2012.
             let start = nearest.max(farthest / OCTAVES.exp2()).max(fine);
             let octaves = (farthest / start).log2().max(1e-3);
-            let scale = (1.0 / (1.0 + tile).log2()).min((most - 1.0) / octaves);
+            let scale = (1.0 / (1.0 + shape.depth * tile).log2()).min((most - 1.0) / octaves);
             let count = (octaves * scale).ceil() as u32 + 1;
-            let wide = 1.0 + scale * (SPLIT * range / tile / start).max(f64::MIN_POSITIVE).log2();
+            let wide = 1.0 + scale * (shape.split * range / tile / start).max(f64::MIN_POSITIVE).log2();
             Slices { start, scale, count, split: split(wide, count) }
         } else {
             let depth = (farthest - nearest).max(1e-6);
-            let scale = (1.0 / tile).min(most / depth);
+            let scale = (1.0 / (shape.depth * tile)).min(most / depth);
             let count = ((depth * scale).ceil() as u32).max(1);
-            let wide = if tile < SPLIT * range { f64::INFINITY } else { 0.0 };
+            let wide = if tile < shape.split * range { f64::INFINITY } else { 0.0 };
             Slices { start: nearest, scale: -scale, count, split: split(wide, count) }
         }
     }
@@ -230,7 +244,7 @@ mod tests {
         ] {
             let camera = camera(projection, far);
             for jitter in [[0.0, 0.0], [0.3, -0.4]] {
-                let c = camera_constants(&camera, [320, 200], jitter, bounds, 0.0);
+                let c = camera_constants(&camera, [320, 200], jitter, bounds, 0.0, ClusterShape::default());
                 let p = DVec3::new(0.2, 1.1, -1.3);
                 let rel = (p - camera.position).extend(1.0);
                 let clip: [f64; 4] = std::array::from_fn(|row| {
@@ -262,7 +276,9 @@ mod tests {
                 [Projection::Perspective { vertical_fov: 1.0 }, Projection::Orthographic { height: 0.1 }]
             {
                 for range in [0.0, 1e-6, 1.0, 1e6] {
-                    let c = camera_constants(&camera(projection, None), [64, 64], [0.0; 2], bounds, range);
+                    let camera = camera(projection, None);
+                    let shape = ClusterShape::default();
+                    let c = camera_constants(&camera, [64, 64], [0.0; 2], bounds, range, shape);
                     assert!(c.slice_count >= 1 && c.slice_count <= MAX_SLICES, "{}", c.slice_count);
                     assert!(c.slice_start > 0.0 && c.slice_scale.is_finite());
                     assert!(c.split_slice <= c.slice_count);

@@ -117,7 +117,7 @@ pub fn is_closed(mesh: &Mesh) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera_constants::camera_constants;
+    use crate::camera_constants::{ClusterShape, camera_constants};
     use crate::scene::{Camera, Projection, load_embedded};
 
     fn mesh(text: &str) -> Mesh {
@@ -158,7 +158,7 @@ mod tests {
                 far: Some(20.0),
                 path: Vec::new(),
             };
-            let constants = camera_constants(&camera, [64, 64], [0.0; 2], None, 0.0);
+            let constants = camera_constants(&camera, [64, 64], [0.0; 2], None, 0.0, ClusterShape::default());
             let at = |x: f64, z: f64, first: u32| Draw {
                 variant: 0,
                 from_outside: Some(1),

@@ -1,6 +1,6 @@
 //! What shaders know of a frame.
 
-use super::{Frame, FrameInputs, cut};
+use super::{Frame, FrameInputs, FrameSettings, cut};
 use crate::camera_constants::camera_constants;
 use crate::draws::visible;
 use crate::error::Result;
@@ -15,7 +15,8 @@ impl Frame {
         camera.position -= origin;
         camera.target -= origin;
         let range = self.scene.median_range;
-        let mut constants = camera_constants(&camera, self.settings.size, jitter, self.scene.bounds, range);
+        let FrameSettings { size, clusters, .. } = self.settings;
+        let mut constants = camera_constants(&camera, size, jitter, self.scene.bounds, range, clusters);
         // N samples share a pixel, so each filters its textures over an N-th of it.
         constants.sample_index = sample;
         constants.light_error = self.settings.light_error;

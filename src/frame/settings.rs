@@ -1,9 +1,9 @@
 //! What a frame is made for, and what changes from picture to picture.
 
+use crate::camera_constants::ClusterShape;
 use crate::scene::settings::{Encoding, FrontEnd, Tonemap};
-use indicatif::ProgressBar;
-
 use crate::scene::{Camera, Projection, RenderSettings};
+use indicatif::ProgressBar;
 
 /// What a frame is made for; changing it means a new [`Frame`](super::Frame).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,8 @@ pub struct FrameSettings {
     pub light_error: f32,
     /// Longest light list.
     pub max_lights_per_cluster: u32,
+    /// How pixels are parted into clusters.
+    pub clusters: ClusterShape,
     /// Perspective camera; orthographic otherwise.
     pub perspective: bool,
     /// What shades the lights in lists.
@@ -49,6 +51,7 @@ impl FrameSettings {
             background: render.background,
             light_error: render.light_error,
             max_lights_per_cluster: render.max_lights_per_cluster,
+            clusters: ClusterShape::default(),
             perspective: matches!(camera.projection, Projection::Perspective { .. }),
             front_end: render.front_end,
             indirect: render.vpls > 0,

@@ -173,7 +173,8 @@ fn of_sweep(
         let scene = sweep.scene(setting, extent.size, extent.fewer)?;
         let uploaded = Uploaded::new(device, &scene, setting.order(), last.take())?;
         bar.inc(1);
-        let mut frame = Frame::new(device, &uploaded.gpu_scene, settings(&scene))?;
+        let settings = FrameSettings { clusters: setting.clusters(), ..settings(&scene) };
+        let mut frame = Frame::new(device, &uploaded.gpu_scene, settings)?;
         // The first frame compiles, and makes room for its lists.
         render(&mut frame, &scene)?;
         bar.inc(1);

@@ -1,9 +1,9 @@
-//! The plot: error over time for the two knobs, time over the number of lights; all logarithmic. The order of the lights has no
-//! error to plot.
+//! The plot: error over time for the two knobs, time over the number of lights; all logarithmic. The order of the lights and
+//! the shape of clusters have no error to plot.
 
 use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges};
 use super::Point;
-use super::sweeps::{GROWTH, ORDER, SWEEPS};
+use super::sweeps::{GROWTH, SWEEPS};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -19,7 +19,7 @@ impl Plot for LightsPlot<'_> {
 
     fn draw<B: DrawingBackend>(&self, root: &DrawingArea<B, Shift>) -> Drawn<B> {
         root.fill(&WHITE)?;
-        let plotted: Vec<_> = SWEEPS.iter().filter(|sweep| sweep.name != ORDER).collect();
+        let plotted: Vec<_> = SWEEPS.iter().filter(|sweep| sweep.is_plotted()).collect();
         let mut labels = Vec::new();
         for (sweep, panel) in plotted.iter().zip(root.split_evenly((1, plotted.len()))) {
             let own: Vec<&Point> = self.0.iter().filter(|p| p.sweep == sweep.name).collect();

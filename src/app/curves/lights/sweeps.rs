@@ -1,6 +1,7 @@
 //! The knobs, and the scenes that they are turned in.
 
 use super::order::Order;
+use crate::camera_constants::ClusterShape;
 use crate::error::Result;
 use crate::scene::{PointLight, Scene, load_embedded};
 
@@ -18,6 +19,10 @@ pub(super) enum Setting {
     Lights(u32),
     /// Of the most lights, on the device.
     Order(Order),
+    /// Depth of a cluster, relative to its tile's side.
+    Depth(f64),
+    /// The least side of a tile, relative to the lights' range, that has clusters for each quadrant.
+    Split(f64),
 }
 
 impl Setting {
@@ -28,6 +33,8 @@ impl Setting {
             Self::Cap(cap) => cap.into(),
             Self::Lights(_) => scene.point_lights.len() as f64,
             Self::Order(order) => f64::from(order as u8),
+            Self::Depth(depth) => depth,
+            Self::Split(split) => split,
         }
     }
 
@@ -35,6 +42,9 @@ impl Setting {
     pub(super) fn label(self, scene: &Scene) -> String {
         match self {
             Self::Order(order) => order.name().to_owned(),
+            Self::Split(0.0) => "4 pixels".to_owned(),
+            Self::Split(NEVER) => "8 pixels".to_owned(),
+            Self::Split(split) => format!("4 where 8 are {split} of a range"),
             _ => self.value(scene).to_string(),
         }
     }
@@ -44,6 +54,16 @@ impl Setting {
         match self {
             Self::Order(order) => order,
             _ => Order::Hilbert,
+        }
+    }
+
+    /// How pixels are parted into clusters.
+    pub(super) fn clusters(self) -> ClusterShape {
+        let ships = ClusterShape::default();
+        match self {
+            Self::Depth(depth) => ClusterShape { depth, ..ships },
+            Self::Split(split) => ClusterShape { split, ..ships },
+            _ => ships,
         }
     }
 }
@@ -61,6 +81,13 @@ pub(super) const GROWTH: &str = "lights";
 
 /// The sweep of the order of the lights.
 pub(super) const ORDER: &str = "order";
+
+/// The sweeps of how pixels are parted into clusters.
+pub(super) const SLICES: &str = "slices";
+pub(super) const TILES: &str = "tiles";
+
+/// Share of the lights' range that no tile's side has.
+const NEVER: f64 = 1e9;
 
 /// log2 of the most lights.
 const MOST: u32 = 20;
@@ -115,6 +142,29 @@ pub(super) const SWEEPS: &[Sweep] = &[
             Setting::Order(Order::AsStrewn),
         ],
     },
+    Sweep {
+        name: SLICES,
+        what: "depth of clusters, relative to their width",
+        settings: &[
+            Setting::Depth(0.25),
+            Setting::Depth(0.5),
+            Setting::Depth(1.0),
+            Setting::Depth(2.0),
+            Setting::Depth(4.0),
+            Setting::Depth(16.0),
+        ],
+    },
+    Sweep {
+        name: TILES,
+        what: "width of clusters",
+        settings: &[
+            Setting::Split(0.0),
+            Setting::Split(0.09),
+            Setting::Split(0.18),
+            Setting::Split(0.36),
+            Setting::Split(NEVER),
+        ],
+    },
 ];
 
 /// log2 of the least number of lights of the sweep of it.
@@ -132,6 +182,11 @@ impl Sweep {
         if self.name == ORDER { 1 } else { step }
     }
 
+    /// Whether it is plotted: what leaves the picture as it is has no error to plot.
+    pub(super) fn is_plotted(&self) -> bool {
+        ![ORDER, SLICES, TILES].contains(&self.name)
+    }
+
     /// The scene for a position of the knob, with 2^`fewer` times fewer lights than told, but 2¹⁰ at least where that is the knob.
     pub(super) fn scene(&self, setting: Setting, size: [u32; 2], fewer: u32) -> Result<Scene> {
         let mut scene = load_embedded("million.toml", HALL, &[], &[])?;
@@ -142,7 +197,7 @@ impl Sweep {
         let log2 = match setting {
             Setting::Lights(log2) => log2.saturating_sub(fewer).max(LEAST),
             // Brute force over these is a large part of the quick chapter.
-            Setting::Order(_) => MOST - fewer * 3 / 2,
+            Setting::Order(_) | Setting::Depth(_) | Setting::Split(_) => MOST - fewer * 3 / 2,
             _ => LIGHTS - fewer,
         };
         let lights = &mut scene.point_lights;
@@ -159,7 +214,9 @@ impl Sweep {
                 scene.render.max_lights_per_cluster = cap;
                 Some(2.0 * range(log2))
             }
-            Setting::Lights(_) | Setting::Order(_) => Some(RANGES[(log2 - LEAST) as usize / 2]),
+            Setting::Lights(_) | Setting::Order(_) | Setting::Depth(_) | Setting::Split(_) => {
+                Some(RANGES[(log2 - LEAST) as usize / 2])
+            }
         };
         lights.iter_mut().for_each(|light| change(light, range, brighter));
         Ok(scene)
