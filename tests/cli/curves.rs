@@ -88,7 +88,9 @@ fn many_lights() {
     assert!(order("pair_ratio").windows(2).all(|pair| pair[0] == pair[1]));
     let visited = order("nodes_visited");
     assert!(visited[..2].iter().all(|&along_curve| 1.5 * along_curve < visited[2]), "{visited:?}");
-    for sweep in ["light_error", "max_lights_per_cluster", "lights", "order", "Morton"] {
+    for sweep in
+        ["light_error", "at random", "max_lights_per_cluster", "lights", "order", "Morton", "slices", "tiles"]
+    {
         assert!(printed.contains(sweep), "{printed}");
     }
     let svg = String::from_utf8(folder.read("lights.svg")).unwrap();

@@ -15,6 +15,7 @@ use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
 use crate::image::HdrImage;
+use crate::light_tree::LightTree;
 use crate::scene::Scene;
 use cpu_time::ProcessTime;
 use glam::Vec3;
@@ -23,7 +24,7 @@ use order::{Order, nodes_visited};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use sweeps::{GROWTH, SWEEPS, Setting, Sweep};
+use sweeps::{GROWTH, Lights, SWEEPS, Setting, Sweep, drawn};
 
 /// What is written.
 pub(super) const FILES: [&str; 5] = ["lights.csv", "lights.json", "lights.md", "lights.svg", "lights.png"];
@@ -51,6 +52,8 @@ pub(super) struct Point {
     setting: f64,
     /// What that is called.
     label: String,
+    /// Random sampling, which the knob is judged beside.
+    sampled: bool,
     /// Point lights of the scene.
     lights: usize,
     /// CPU time of the process, milliseconds a frame.
@@ -72,6 +75,8 @@ pub(super) struct Point {
     bias: f64,
     /// Neither more nor less of the knob is both faster and more exact.
     pareto: bool,
+    /// What ships.
+    default: bool,
 }
 
 /// Everything that was measured.
@@ -126,39 +131,54 @@ struct Subject {
     trees: Vec<f64>,
 }
 
-/// What was uploaded last, with the order of its lights, and its truth.
+/// What was uploaded last, which of its lights, and its truth.
 struct Uploaded {
     scene: Scene,
-    order: Order,
+    lights: Lights,
     gpu_scene: Arc<GpuScene>,
     truth: HdrImage,
 }
 
 impl Uploaded {
-    /// A scene with its lights in an order. Most knobs leave lights and order alone.
-    fn new(device: &Arc<Device>, scene: &Scene, order: Order, last: Option<Self>) -> Result<Self> {
+    /// A scene with its lights, or some of them. Most knobs leave the lights alone. The truth is that of a setting before, of the
+    /// same scene with all lights, or else rendered.
+    fn new(device: &Arc<Device>, scene: &Scene, lights: Lights, last: Option<Self>) -> Result<Self> {
         let last = last.filter(|last| last.scene.point_lights == scene.point_lights);
         let (gpu_scene, truth) = match last {
-            Some(last) if last.order == order => (last.gpu_scene, Some(last.truth)),
+            Some(last) if last.lights == lights => (last.gpu_scene, last.truth),
             last => {
-                let mut gpu_scene = GpuScene::new(device, scene)?;
-                if order != Order::Hilbert {
-                    gpu_scene.take_lights(device, order.tree(&scene.point_lights, gpu_scene.origin))?;
-                }
-                (Arc::new(gpu_scene), last.map(|last| last.truth))
+                let gpu_scene = upload(device, scene, lights)?;
+                let truth =
+                    last.map_or_else(|| brute_force(device, &gpu_scene, scene), |last| Ok(last.truth))?;
+                (gpu_scene, truth)
             }
         };
-        let truth = match truth {
-            Some(truth) => truth,
-            None => {
-                let brute_force = FrameSettings { brute_force: true, ..settings(scene) };
-                let mut frame = Frame::new(device, &gpu_scene, brute_force)?;
-                render(&mut frame, scene)?;
-                frame.hdr()?
-            }
-        };
-        Ok(Self { scene: scene.clone(), order, gpu_scene, truth })
+        Ok(Self { scene: scene.clone(), lights, gpu_scene, truth })
     }
+}
+
+fn upload(device: &Arc<Device>, scene: &Scene, lights: Lights) -> Result<Arc<GpuScene>> {
+    let gpu_scene = match lights {
+        Lights::All(Order::Hilbert) => GpuScene::new(device, scene)?,
+        Lights::All(order) => {
+            let mut gpu_scene = GpuScene::new(device, scene)?;
+            gpu_scene.take_lights(device, order.tree(&scene.point_lights, gpu_scene.origin))?;
+            gpu_scene
+        }
+        Lights::Random(count) => {
+            let point_lights = drawn(&scene.point_lights, count);
+            GpuScene::new(device, &Scene { point_lights, ..scene.clone() })?
+        }
+    };
+    Ok(Arc::new(gpu_scene))
+}
+
+/// Every light on every pixel.
+fn brute_force(device: &Arc<Device>, gpu_scene: &Arc<GpuScene>, scene: &Scene) -> Result<HdrImage> {
+    let settings = FrameSettings { brute_force: true, ..settings(scene) };
+    let mut frame = Frame::new(device, gpu_scene, settings)?;
+    render(&mut frame, scene)?;
+    frame.hdr()
 }
 
 fn of_sweep(
@@ -171,7 +191,7 @@ fn of_sweep(
     let mut subjects = Vec::new();
     for &setting in sweep.settings.iter().step_by(sweep.step(extent.step)) {
         let scene = sweep.scene(setting, extent.size, extent.fewer)?;
-        let uploaded = Uploaded::new(device, &scene, setting.order(), last.take())?;
+        let uploaded = Uploaded::new(device, &scene, setting.lights(), last.take())?;
         bar.inc(1);
         let settings = FrameSettings { clusters: setting.clusters(), ..settings(&scene) };
         let mut frame = Frame::new(device, &uploaded.gpu_scene, settings)?;
@@ -185,7 +205,7 @@ fn of_sweep(
     for _ in 0..extent.repetitions {
         for subject in &mut subjects {
             subject.timings.push(render(&mut subject.frame, &subject.scene)?);
-            subject.trees.push(tree_ms(subject.setting.order(), &subject.scene));
+            subject.trees.push(tree_ms(subject.setting.lights(), &subject.scene));
             bar.inc(1);
         }
     }
@@ -213,9 +233,12 @@ fn render(frame: &mut Frame, scene: &Scene) -> Result<Timings> {
     })
 }
 
-fn tree_ms(order: Order, scene: &Scene) -> f64 {
+fn tree_ms(lights: Lights, scene: &Scene) -> f64 {
     let clock = ProcessTime::now();
-    let tree = order.tree(&scene.point_lights, Vec3::ZERO);
+    let tree = match lights {
+        Lights::All(order) => order.tree(&scene.point_lights, Vec3::ZERO),
+        Lights::Random(count) => LightTree::new(&drawn(&scene.point_lights, count), Vec3::ZERO),
+    };
     let taken = clock.elapsed();
     drop(tree);
     taken.as_secs_f64() * 1e3
@@ -240,6 +263,7 @@ fn point(sweep: &Sweep, subject: &Subject) -> Result<Point> {
         sweep: sweep.name,
         setting: setting.value(scene),
         label: setting.label(scene),
+        sampled: matches!(setting, Setting::Random(_)),
         lights: scene.point_lights.len(),
         cpu_ms: report::figure(timings, |t| Some(t.cpu_ms)).unwrap_or_default(),
         wall_ms: report::figure(timings, |t| Some(t.wall_ms)).unwrap_or_default(),
@@ -251,6 +275,7 @@ fn point(sweep: &Sweep, subject: &Subject) -> Result<Point> {
         error_p99: figures.p99,
         bias: sum(&picture) / sum(truth).max(f64::MIN_POSITIVE) - 1.0,
         pareto: false,
+        default: setting.is_default(),
     })
 }
 

@@ -69,6 +69,16 @@ fn save_tables(
     write_atomically(markdown, |file| file.write_all(page.as_bytes()))
 }
 
+/// What a table's last column says of a point: whether it is on the front of Pareto's, and what ships.
+fn marks(pareto: bool, default: bool) -> &'static str {
+    match (pareto, default) {
+        (true, true) => "front, default",
+        (true, false) => "front",
+        (false, true) => "default",
+        (false, false) => "",
+    }
+}
+
 fn progress(work: usize) -> ProgressBar {
     if !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();

@@ -1,5 +1,6 @@
 //! The chapter on gathered light as text.
 
+use super::super::marks;
 use super::Figures;
 use super::figures::{Family, Point, paths_after};
 use super::plain::CLAMP;
@@ -46,19 +47,10 @@ pub(super) fn summary(figures: &Figures) -> String {
             p.cpu_s.median,
             p.error,
             p.bias,
-            marks(p)
+            marks(p.pareto, p.default)
         );
     }
     text.trim_end().to_owned()
-}
-
-fn marks(p: &Point) -> &'static str {
-    match (p.pareto, p.default) {
-        (true, true) => "yes, default",
-        (true, false) => "yes",
-        (false, true) => "default",
-        (false, false) => "",
-    }
 }
 
 pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
@@ -116,7 +108,7 @@ fn gathered(text: &mut String, points: &[Point]) {
             100.0 * p.error,
             100.0 * p.bias,
             100.0 * paths,
-            marks(p)
+            marks(p.pareto, p.default)
         );
     }
     text.push_str(
@@ -142,7 +134,7 @@ fn others(text: &mut String, points: &[Point]) {
             p.wall_s.median,
             100.0 * p.error,
             100.0 * p.bias,
-            marks(p)
+            marks(p.pareto, p.default)
         );
     }
 }

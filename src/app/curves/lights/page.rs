@@ -1,5 +1,6 @@
 //! The chapter on point lights as text.
 
+use super::super::marks;
 use super::sweeps::{GROWTH, SWEEPS};
 use super::{Figures, Point, growth};
 use crate::gpu::DeviceInfo;
@@ -9,12 +10,12 @@ use std::io::{self, Write};
 pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
     writeln!(
         file,
-        "sweep,setting,lights,cpu_ms,cpu_ms_mad,wall_ms,tree_cpu_ms,pairs_per_pixel,pair_ratio,error,error_p99,bias,pareto,nodes_visited"
+        "sweep,setting,lights,cpu_ms,cpu_ms_mad,wall_ms,tree_cpu_ms,pairs_per_pixel,pair_ratio,error,error_p99,bias,pareto,default,nodes_visited"
     )?;
     points.iter().try_for_each(|p| {
         writeln!(
             file,
-            "{},{},{},{:.2},{:.2},{:.2},{:.2},{:.2},{:.3},{:.6},{:.6},{:.6},{},{}",
+            "{},{},{},{:.2},{:.2},{:.2},{:.2},{:.2},{:.3},{:.6},{:.6},{:.6},{},{},{}",
             p.sweep,
             p.label,
             p.lights,
@@ -28,6 +29,7 @@ pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
             p.error_p99,
             p.bias,
             u8::from(p.pareto),
+            u8::from(p.default),
             p.nodes_visited
         )
     })
@@ -80,16 +82,17 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
          ![Error over CPU time for each knob, and time over the number of lights](lights.png)\n\n\
          The scene is `scenes/million.toml`, a hall with sixty spheres of five BSDFs, with as many of its lights as each \
          table says; {}. Times are medians of whole frames, CPU time of the process; errors are relative to the picture \
-         with every light on every pixel, of the same program.\n",
+         with every light on every pixel, of the same program. *At random*: lights drawn by their intensity in the \
+         place of all, the same for all pixels, which is what sampling without a tree comes to in the time.\n",
         device.name, device.driver, device.api, figures.extent
     );
     for sweep in SWEEPS {
         let _ = write!(
             text,
-            "\n## `{}`\n\nSwept: {}.\n\n\
-             | {} | lights | CPU ms | wall ms | tree, CPU ms | nodes tested | pairs a pixel | evaluated per useful | mean error | p99 | bias | front |\n\
+            "\n## `{}`\n\nSwept: {}. {}\n\n\
+             | {} | lights | CPU ms | wall ms | tree, CPU ms | nodes tested | pairs a pixel | evaluated per useful | mean error | p99 | bias | |\n\
              | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
-            sweep.name, sweep.what, sweep.name
+            sweep.name, sweep.what, sweep.why, sweep.name
         );
         for p in figures.points.iter().filter(|p| p.sweep == sweep.name) {
             let _ = writeln!(
@@ -107,7 +110,7 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
                 100.0 * p.error,
                 100.0 * p.error_p99,
                 100.0 * p.bias,
-                if p.pareto { "yes" } else { "" }
+                marks(p.pareto, p.default)
             );
         }
     }

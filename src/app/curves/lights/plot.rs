@@ -11,6 +11,7 @@ use plotters::prelude::*;
 pub(super) struct LightsPlot<'a>(pub(super) &'a [Point]);
 
 const LINE: RGBColor = RGBColor(30, 90, 200);
+const SAMPLED: RGBColor = RGBColor(200, 30, 30);
 /// Errors below this are rounding.
 const LEAST_ERROR: f64 = 1e-7;
 
@@ -28,10 +29,13 @@ impl Plot for LightsPlot<'_> {
                 true => (p.setting, p.cpu_ms.median),
                 false => (p.cpu_ms.median, p.error.max(LEAST_ERROR)),
             };
-            let axes =
-                if growth { "across: lights; up: CPU ms" } else { "across: CPU ms; up: mean relative error" };
-            let points: Vec<_> = own.iter().map(|p| (at(p), p.label.as_str())).collect();
-            labels.extend(draw_panel(&panel, sweep.what, axes, &points)?);
+            let axes = if growth {
+                "across: lights; up: CPU ms"
+            } else {
+                "across: CPU ms; up: mean relative error; ringed: the default"
+            };
+            let places: Vec<_> = own.iter().map(|p| (at(p), *p)).collect();
+            labels.extend(draw_panel(&panel, sweep.what, axes, &places)?);
         }
         draw_labels(root, &labels)?;
         root.present()
@@ -41,27 +45,32 @@ impl Plot for LightsPlot<'_> {
 /// What the axis takes at a panel's left.
 const MARGIN: i32 = 80;
 
-/// Points joined by a line, and each one's label.
+/// Points of the knob and of random sampling, each kind joined by a line, and each one's label. What ships has a ring.
 fn draw_panel<B: DrawingBackend>(
     panel: &DrawingArea<B, Shift>,
     title: &str,
     axes: &str,
-    points: &[((f64, f64), &str)],
+    places: &[((f64, f64), &Point)],
 ) -> Result<Vec<Label>, DrawingAreaErrorKind<B::ErrorType>> {
-    let ranges = ranges(points.iter().map(|(at, _)| *at), LEAST_ERROR);
+    let ranges = ranges(places.iter().map(|(at, _)| *at), LEAST_ERROR);
     let mut chart = chart(panel, title, ranges, axes)?;
-    chart.draw_series([PathElement::new(
-        points.iter().map(|(at, _)| *at).collect::<Vec<_>>(),
-        LINE.stroke_width(1),
-    )])?;
-    chart.draw_series(points.iter().map(|(at, _)| Circle::new(*at, 4, LINE.filled())))?;
+    for (sampled, color) in [(false, LINE), (true, SAMPLED)] {
+        let own = || places.iter().filter(move |(_, p)| p.sampled == sampled);
+        chart.draw_series([PathElement::new(
+            own().map(|(at, _)| *at).collect::<Vec<_>>(),
+            color.stroke_width(1),
+        )])?;
+        chart.draw_series(own().map(|(at, _)| Circle::new(*at, 4, color.filled())))?;
+        let default = own().filter(|(_, p)| p.default);
+        chart.draw_series(default.map(|(at, _)| Circle::new(*at, 9, color.stroke_width(2))))?;
+    }
     let left = panel.get_base_pixel().0;
     let within = [left + MARGIN, left + panel.dim_in_pixel().0 as i32];
-    let label = |(at, text): &((f64, f64), &str)| Label {
+    let label = |(at, p): &((f64, f64), &Point)| Label {
         at: chart.plotting_area().map_coordinate(at),
-        text: (*text).to_owned(),
-        color: BLACK,
+        text: p.label.clone(),
+        color: if p.sampled { SAMPLED } else { BLACK },
         within,
     };
-    Ok(points.iter().map(label).collect())
+    Ok(places.iter().map(label).collect())
 }

@@ -1,5 +1,6 @@
 //! The chapter on samples as text.
 
+use super::super::marks;
 use super::{FAMILIES, Figures, Law, Point};
 use crate::gpu::DeviceInfo;
 use std::fmt::Write as _;
@@ -76,8 +77,6 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
             family.name()
         );
         for p in figures.points.iter().filter(|p| p.family == family) {
-            let marks = [(p.pareto, "front"), (p.default, "default")];
-            let marks = marks.iter().filter(|mark| mark.0).map(|mark| mark.1).collect::<Vec<_>>();
             let _ = writeln!(
                 text,
                 "| {} | {:.2} ± {:.2} | {:.2} | {:.3} % | {:+.3} % | {} |",
@@ -87,7 +86,7 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
                 p.wall_ms.median,
                 100.0 * p.error,
                 100.0 * p.bias,
-                marks.join(", ")
+                marks(p.pareto, p.default)
             );
         }
         if let Some(law) = figures.laws.iter().find(|law| law.family == family) {
