@@ -5,10 +5,11 @@
 //! 2. A stable partition by the first 12 bits leaves runs that a core's own cache holds; each is partitioned by as many
 //!    more bits as it has points for, and again where points crowd. An insertion from neighbour to neighbour does the rest.
 //!
-//! CPU ms of 2²⁰ points strewn evenly, on one thread of a busy Xeon: 32, of which 5 are the system's for fresh memory. Keys
-//! made one by one, and runs each sorted, took 56 there and 21 on an idle EPYC, where a radix sort of all 30 bits and tables of two levels took 51, and Morton's keys as much
-//! as these within 2 %; boxes of 32 points in Morton's order have 2.7 times the volume (1.6 times with ranges as in
-//! `scenes/million.toml`).
+//! CPU ms of 2²⁰ points strewn evenly, on one thread of a busy Xeon: 32 as lights, of which 5 are the system's for fresh
+//! memory, and 23 as positions alone, whose order takes 84 on lavapipe (`passes::order`). Keys made one by one, and runs each
+//! sorted, took 56 there and 21 on an idle EPYC, where a radix sort of all 30 bits and tables of two levels took 51, and
+//! Morton's keys as much as these within 2 %; boxes of 32 points in Morton's order have 2.7 times the volume (1.6 times with
+//! ranges as in `scenes/million.toml`).
 
 mod curve;
 pub(crate) mod sort;
@@ -30,6 +31,16 @@ pub fn order(points: impl ExactSizeIterator<Item = Vec3> + Clone) -> Vec<u32> {
     let (near, far): (Vec<u32>, Vec<u32>) =
         (0..places.len() as u32).partition(|&index| inside(places[index as usize]));
     [near, far].into_iter().flat_map(|part| sub_order(&places, &part)).collect()
+}
+
+/// The cells of one curve through all points.
+pub(crate) fn grid(points: impl Iterator<Item = Vec3>) -> Grid {
+    Grid::over(bounds(points))
+}
+
+/// The table that their keys are made by, two entries a word, the first in the lower half.
+pub(crate) fn steps() -> Vec<u32> {
+    curve::STEPS.chunks_exact(2).map(|two| u32::from(two[1]) << 16 | u32::from(two[0])).collect()
 }
 
 /// A part of all indices in the order of a curve through their points.

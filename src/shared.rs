@@ -374,6 +374,16 @@ shared! {
         GATHER_SUBSETS = 4;
         /// log2 of the texels across the texture of gathered lights and their trees.
         GATHERED_WIDTH_LOG2 = 12;
+        /// Bits of a Hilbert key along an axis, a multiple of the three levels that the host makes in a step.
+        HILBERT_BITS = 12;
+        /// Bits of a Hilbert key that are sorted by, from the first on.
+        HILBERT_KEY_BITS = 32;
+        /// Bits of a key that a pass of the sort on the device goes by.
+        ORDER_DIGIT_BITS = 8;
+        /// Values of such a digit: one for each invocation of `SCAN_GROUP`.
+        ORDER_DIGITS = 256;
+        /// Points that an invocation of that sort goes through, one by one.
+        ORDER_BLOCK = 2048;
     }
     sets {
         /// Descriptors of a frame: targets and clusters.
@@ -462,6 +472,17 @@ shared! {
         pairs = 2 {
             /// [`TilePairs`](super::TilePairs) per tile.
             PAIRS_TILES = 0: Storage in Compute;
+        }
+        /// The order of points on the device: a set of its own.
+        order = 0 {
+            /// Points, a vector each.
+            ORDER_POINTS = 0: Storage in Compute;
+            /// Keys and indices that a pass goes through; of that which makes the keys the table of the curve.
+            ORDER_FROM = 1: Storage in Compute;
+            /// Keys and indices, by one digit more in order.
+            ORDER_TO = 2: Storage in Compute;
+            /// Of each block of points and value of a digit: how many, then where the next goes.
+            ORDER_COUNTS = 3: Storage in Compute;
         }
         /// A texture of the window's overlay.
         overlay = 0 {
@@ -588,6 +609,21 @@ shared! {
             index: uint;
             /// First row of pixels.
             row: uint;
+        }
+        /// Push constants of the order of points on the device.
+        OrderConstants {
+            /// Corner of the curve's first cell.
+            lower: vec3;
+            /// Cells a metre.
+            scale: float;
+            /// Points.
+            count: uint;
+            /// Blocks of `ORDER_BLOCK` points.
+            blocks: uint;
+            /// Bits of a key below this pass's digit.
+            shift: uint;
+            /// 0.
+            spare: uint;
         }
         /// Push constants of the window's overlay.
         OverlayConstants {

@@ -1,12 +1,9 @@
 //! The curve itself: the cells of a grid, and the place of each along it.
 
+use crate::shared::{HILBERT_BITS as BITS, HILBERT_KEY_BITS as KEY_BITS};
 use glam::Vec3;
 use std::sync::LazyLock;
 
-/// Bits per axis, a multiple of the levels of a step.
-const BITS: u32 = 12;
-/// Bits of a key that the sort reads.
-pub(crate) const KEY_BITS: u32 = 32;
 /// As many keys are made together: their bits four at a time, where processors can, and only then one by one.
 const BLOCK: usize = 64;
 /// Orientations of the curve.
@@ -17,7 +14,7 @@ const STATE_BITS: u32 = 5;
 /// lookup need a check.
 type Steps = [u16; 512 << STATE_BITS];
 
-static STEPS: LazyLock<Box<Steps>> = LazyLock::new(|| {
+pub(super) static STEPS: LazyLock<Box<Steps>> = LazyLock::new(|| {
     let states = states();
     let mut steps = Box::new([0; 512 << STATE_BITS]);
     for (number, first) in states.iter().enumerate() {
@@ -87,10 +84,11 @@ impl State {
 }
 
 /// The cells of the curve.
-pub(super) struct Grid {
-    lower: Vec3,
+pub(crate) struct Grid {
+    /// Corner of the first cell.
+    pub(crate) lower: Vec3,
     /// Cells a metre.
-    scale: f32,
+    pub(crate) scale: f32,
 }
 
 impl Grid {

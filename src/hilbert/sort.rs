@@ -1,6 +1,6 @@
 //! Indices sorted by their keys; ties by the indices.
 
-pub(crate) use super::curve::KEY_BITS;
+use crate::shared::HILBERT_KEY_BITS as KEY_BITS;
 use std::ops::Range;
 
 /// Bits of the first partition.

@@ -14,6 +14,7 @@ pub mod forward;
 pub mod gather;
 pub mod indirect;
 mod luminaires;
+pub mod order;
 #[cfg(feature = "viewer")]
 pub mod overlay;
 pub mod pairs;

@@ -93,6 +93,12 @@ fn many_lights() {
     {
         assert!(printed.contains(sweep), "{printed}");
     }
+    let orders = &json["orders"];
+    assert_eq!(orders["lights"], 16384);
+    for key in ["host_cpu_ms", "device_cpu_ms"] {
+        assert!(orders[key]["median"].as_f64().unwrap() > 0.0, "{orders}");
+    }
+    assert!(printed.contains("The Hilbert order of 16384 lights"), "{printed}");
     let svg = String::from_utf8(folder.read("lights.svg")).unwrap();
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
 }

@@ -27,7 +27,8 @@ fn descriptors_are_those_of_the_tables() {
             used.insert((table, slot));
         }
     }
-    let tables = ["frame", "scene", "material", "resolve", "pairs", "gather", "overlay", "probe"].into_iter();
+    let tables =
+        ["frame", "scene", "material", "resolve", "pairs", "gather", "order", "overlay", "probe"].into_iter();
     let all: BTreeSet<_> = tables
         .flat_map(|name| bindings_of(name).iter().map(move |binding| (name, binding.binding)))
         .collect();
@@ -42,17 +43,19 @@ fn bindings_of(table: &str) -> &'static [Binding] {
         "resolve" => shared::resolve::BINDINGS,
         "pairs" => shared::pairs::BINDINGS,
         "gather" => shared::gather::BINDINGS,
+        "order" => shared::order::BINDINGS,
         "overlay" => shared::overlay::BINDINGS,
         _ => shared::probe::BINDINGS,
     }
 }
 
-/// The probes and the window's overlay have sets of their own, in the place of the frame's; the resolve, the
+/// The probes, the order of points and the window's overlay have sets of their own, in the place of the frame's; the resolve, the
 /// accounting and the gathering, in that of a material's.
 fn table(shader: &str, set: u32) -> Option<(&'static str, &'static [Binding])> {
     let name = match set {
         shared::overlay::SET if shader.starts_with("overlay/") => "overlay",
         shared::probe::SET if shader.starts_with("probe/") => "probe",
+        shared::order::SET if shader.starts_with("order/") => "order",
         shared::frame::SET => "frame",
         shared::scene::SET => "scene",
         shared::resolve::SET if shader.starts_with("resolve/") => "resolve",

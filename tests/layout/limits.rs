@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use amas::gpu::{Stage, shaders};
-use amas::shared::{Binding, BindingKind, Stages, frame, material, pairs, probe, resolve, scene};
+use amas::shared::{Binding, BindingKind, Stages, frame, material, order, pairs, probe, resolve, scene};
 
 use crate::spirv::{Module, Type, class, decoration};
 use crate::{constant, kinds, modules};
@@ -64,6 +64,7 @@ fn workgroups_have_the_size_that_dispatches_assume() {
     let sized = |name| constant(name).unwrap();
     let (linear, scan, tile) = (sized("LINEAR_GROUP"), sized("SCAN_GROUP"), sized("TILE_SIZE"));
     assert_eq!(sized("TILE_PIXELS"), tile * tile);
+    assert_eq!([sized("ORDER_DIGITS"), 1 << sized("ORDER_DIGIT_BITS")], [scan; 2]);
     for (shader, module) in modules() {
         let want = match shader.name {
             _ if shader.stage != Stage::Compute => None,
@@ -71,6 +72,7 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             "cluster/slices.comp" | "cluster/bounds.comp" | "cluster/gather.comp" | "cluster/fold.comp" => {
                 Some([1, 1, 1])
             }
+            "order/count.comp" | "order/scatter.comp" => Some([1, 1, 1]),
             name if name.starts_with("resolve/many_") => Some([1, 1, 1]),
             // One workgroup per tile: one invocation per pixel.
             "cluster/pairs.comp" | "cluster/floors.comp" | "cluster/given_up.comp" => Some([tile, tile, 1]),
@@ -81,6 +83,7 @@ fn workgroups_have_the_size_that_dispatches_assume() {
             | "cluster/scan_lists.comp"
             | "cluster/scan_cuts.comp"
             | "cluster/split.comp"
+            | "order/places.comp"
             | "resolve/gather.comp" => Some([scan, 1, 1]),
             // One invocation per element.
             _ => Some([linear, 1, 1]),
@@ -122,8 +125,10 @@ fn pipeline_layouts_fit_the_device_that_amas_asks_for() {
             assert!(count(&[BindingKind::StorageImage]) <= STORAGE_IMAGES, "{stage:?}: {last:?}");
         }
     }
+    assert!(order::BINDINGS.len() <= STORAGE_BUFFERS as usize, "bound alone");
     let tables = [frame::BINDINGS, scene::BINDINGS, material::BINDINGS];
-    for table in tables.into_iter().chain([resolve::BINDINGS, pairs::BINDINGS, probe::BINDINGS]) {
+    let others = [resolve::BINDINGS, pairs::BINDINGS, order::BINDINGS, probe::BINDINGS];
+    for table in tables.into_iter().chain(others) {
         let numbers: BTreeSet<_> = table.iter().map(|binding| binding.binding).collect();
         assert_eq!(numbers.len(), table.len(), "binding numbers are unique: {table:?}");
     }

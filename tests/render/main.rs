@@ -22,6 +22,7 @@ mod lists;
 mod luminaires;
 mod motion;
 mod oracle;
+mod order;
 mod pick;
 mod support;
 mod surfaces;

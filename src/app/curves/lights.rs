@@ -1,5 +1,6 @@
 //! The chapter on point lights by the thousand: what a picture costs, and how wrong it is, by each knob.
 
+mod device;
 mod order;
 mod page;
 mod plot;
@@ -18,6 +19,7 @@ use crate::image::HdrImage;
 use crate::light_tree::LightTree;
 use crate::scene::Scene;
 use cpu_time::ProcessTime;
+use device::Orders;
 use glam::Vec3;
 use indicatif::ProgressBar;
 use order::{Order, nodes_visited};
@@ -82,6 +84,7 @@ pub(super) struct Point {
 /// Everything that was measured.
 struct Figures {
     points: Vec<Point>,
+    orders: Orders,
     extent: String,
     quick: bool,
 }
@@ -92,6 +95,7 @@ struct File<'a> {
     origin: Origin<'a>,
     quick: bool,
     extent: &'a str,
+    orders: &'a Orders,
     points: &'a [Point],
 }
 
@@ -107,17 +111,21 @@ fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
     let extent = if quick { QUICK } else { FULL };
     let settings: usize =
         SWEEPS.iter().map(|sweep| sweep.settings.len().div_ceil(sweep.step(extent.step))).sum();
-    let bar = progress(settings * (2 + extent.repetitions));
+    let bar = progress(settings * (2 + extent.repetitions) + extent.repetitions);
     let mut points = Vec::new();
     let mut last = None;
     for sweep in SWEEPS {
         bar.set_message(sweep.name);
         points.extend(of_sweep(device, sweep, extent, &mut last, &bar)?);
     }
+    bar.set_message("host and device");
+    let most: Vec<Vec3> =
+        last.iter().flat_map(|last| &last.scene.point_lights).map(|light| light.position).collect();
+    let orders = Orders::measure(device, &most, extent.repetitions, &bar)?;
     bar.finish_and_clear();
     let extent =
         format!("{} × {} pixels, {} repetitions", extent.size[0], extent.size[1], extent.repetitions);
-    Ok(Figures { points, extent, quick })
+    Ok(Figures { points, orders, extent, quick })
 }
 
 /// A setting's frame, and what it is compared with.
@@ -286,6 +294,7 @@ fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result
         origin: Origin::of(device),
         quick: figures.quick,
         extent: &figures.extent,
+        orders: &figures.orders,
         points: &figures.points,
     };
     let rows = |file: &mut _| page::csv(file, &figures.points);

@@ -3,10 +3,10 @@
 use crate::error::Result;
 use crate::frame::Frame;
 use crate::gpu::Use;
-use crate::hilbert::sort::{self, KEY_BITS};
+use crate::hilbert::sort;
 use crate::light_tree::LightTree;
 use crate::scene::PointLight;
-use crate::shared::{Cluster, LightNode, TOP_LEAVES};
+use crate::shared::{Cluster, HILBERT_KEY_BITS as KEY_BITS, LightNode, TOP_LEAVES};
 use glam::Vec3;
 
 /// An order of lights with a range.

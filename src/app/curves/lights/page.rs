@@ -53,6 +53,7 @@ pub(super) fn summary(figures: &Figures) -> String {
     if let Some(sentence) = growth_sentence(figures) {
         text += &sentence;
     }
+    text += &figures.orders.sentence();
     text.trim_end().to_owned()
 }
 
@@ -117,5 +118,6 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
     if let Some(sentence) = growth_sentence(figures) {
         let _ = write!(text, "\n{sentence}");
     }
+    let _ = write!(text, "\n{}", figures.orders.sentence());
     text
 }
