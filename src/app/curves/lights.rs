@@ -6,6 +6,7 @@ mod page;
 mod plot;
 mod sweeps;
 
+use super::super::load::{Load, Since};
 use super::super::measure::Figure;
 use super::super::report::{self, Origin};
 use super::plot as plots;
@@ -86,6 +87,7 @@ struct Figures {
     points: Vec<Point>,
     orders: Orders,
     extent: String,
+    load: Option<Load>,
     quick: bool,
 }
 
@@ -95,6 +97,7 @@ struct File<'a> {
     origin: Origin<'a>,
     quick: bool,
     extent: &'a str,
+    load: Option<Load>,
     orders: &'a Orders,
     points: &'a [Point],
 }
@@ -112,6 +115,7 @@ fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
     let settings: usize =
         SWEEPS.iter().map(|sweep| sweep.settings.len().div_ceil(sweep.step(extent.step))).sum();
     let bar = progress(settings * (2 + extent.repetitions) + extent.repetitions);
+    let since = Since::now();
     let mut points = Vec::new();
     let mut last = None;
     for sweep in SWEEPS {
@@ -125,7 +129,7 @@ fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
     bar.finish_and_clear();
     let extent =
         format!("{} × {} pixels, {} repetitions", extent.size[0], extent.size[1], extent.repetitions);
-    Ok(Figures { points, orders, extent, quick })
+    Ok(Figures { points, orders, extent, load: since.load(), quick })
 }
 
 /// A setting's frame, and what it is compared with.
@@ -294,6 +298,7 @@ fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result
         origin: Origin::of(device),
         quick: figures.quick,
         extent: &figures.extent,
+        load: figures.load,
         orders: &figures.orders,
         points: &figures.points,
     };

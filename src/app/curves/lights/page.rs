@@ -76,10 +76,11 @@ fn growth_sentence(figures: &Figures) -> Option<String> {
 pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
     let commit = option_env!("AMAS_COMMIT").unwrap_or("an unknown commit");
     let quick = if figures.quick { " --quick" } else { "" };
+    let load = figures.load.map_or_else(String::new, |load| load.sentence() + "\n\n");
     let mut text = format!(
         "# Many point lights: speed against error\n\n\
          Written by `amas report --chapter lights{quick} --out DIR` at {commit} on {} ({}, Vulkan {}). `lights.csv` and \
-         `lights.json` have every figure.\n\n\
+         `lights.json` have every figure.\n\n{load}\
          ![Error over CPU time for each knob, and time over the number of lights](lights.png)\n\n\
          The scene is `scenes/million.toml`, a hall with sixty spheres of five BSDFs, with as many of its lights as each \
          table says; {}. Times are medians of whole frames, CPU time of the process; errors are relative to the picture \
