@@ -215,7 +215,8 @@ fn samples() {
 fn choices() {
     let folder = Folder::new();
     let printed = folder.done(&["report", "--chapter", "choices", "--quick"]);
-    assert_eq!(folder.names(), ["choices.csv", "choices.json", "choices.md", "scene.toml"]);
+    let files = ["choices.csv", "choices.json", "choices.md", "choices.png", "choices.svg", "scene.toml"];
+    assert_eq!(folder.names(), files);
     let json = folder.json("choices.json");
     let tables = json["tables"].as_array().unwrap();
     for layer in ["metal", "plastic"] {
