@@ -2,7 +2,8 @@
 
 use crate::Folder;
 
-const FILES: [&str; 6] = ["area.csv", "area.json", "area.md", "area.png", "area.svg", "scene.toml"];
+const FILES: [&str; 8] =
+    ["area.csv", "area.json", "area.md", "area.png", "area.svg", "scene.toml", "sizes.png", "sizes.svg"];
 
 #[test]
 fn area_lights() {
@@ -16,8 +17,22 @@ fn area_lights() {
         assert!(!json[key].is_null(), "{key}");
     }
     let points = json["points"].as_array().unwrap();
+    let sizes = json["sizes"].as_array().unwrap();
     let csv = String::from_utf8(folder.read("area.csv")).unwrap();
-    assert_eq!(csv.lines().count(), points.len() + 1);
+    assert_eq!(csv.lines().count(), points.len() + sizes.len() + 1);
+    // However small or large the light: what ships, and points that are all of a tiny light.
+    for p in sizes {
+        let [share, error] = ["share", "error"].map(|key| p[key].as_f64().unwrap());
+        let most = match p["tier"].as_str().unwrap() {
+            "amas, error 0" => 0.005,
+            "amas, error .01" => 0.01,
+            "cubature 2x2" | "cubature 4x4" if share < 1e-3 => 0.005,
+            _ => f64::INFINITY,
+        };
+        assert!(error < most, "{p}");
+    }
+    let counts = [1e-4, 0.1].map(|share| sizes.iter().filter(|p| p["share"] == share).count());
+    assert_eq!(counts, [34, 34]);
     for band in ["sharp", "rough"] {
         let of = |tier: &str, key: &str| {
             let point = points.iter().find(|p| p["band"] == band && p["model"] == "all" && p["tier"] == tier);
@@ -49,6 +64,8 @@ fn area_lights() {
     }
     let png = image::load_from_memory(&folder.read("area.png")).unwrap();
     assert_eq!((png.width(), png.height()), (1560, 800));
+    let sizes = String::from_utf8(folder.read("sizes.svg")).unwrap();
+    assert!(sizes.contains("equal time"), "{sizes}");
     let svg = String::from_utf8(folder.read("area.svg")).unwrap();
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
     for text in [svg, String::from_utf8(folder.read("area.md")).unwrap()] {
