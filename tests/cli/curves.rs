@@ -167,14 +167,22 @@ fn hard_cases() {
     };
     let mut formulas: Vec<&str> = points.iter().map(|p| p["formula"].as_str().unwrap()).collect();
     formulas.dedup();
-    assert!(formulas.len() >= 12, "{formulas:?}");
+    assert!(formulas.len() >= 20, "{formulas:?}");
     for point in points {
-        // What ships is finite everywhere and right to what the contract grants form factors.
+        // What ships is finite everywhere and right to what the contract grants form factors, and √(1 − n·wo) to the root of a
+        // rounding. Thin lines whose vertices round to more than their width lose a third of the 3e-4 that they give at most:
+        // known, and no worse.
+        let most = match (point["absolute"].as_bool().unwrap(), point["formula"].as_str().unwrap()) {
+            (false, _) => 2e-3,
+            (true, "form factor of a line") => 1e-4,
+            (true, "the tables' coordinate") => 5e-4,
+            (true, _) => 2e-6,
+        };
         for shipped in
             ["shipped_cpu", "shipped_device"].map(|key| &point[key]).into_iter().filter(|v| !v.is_null())
         {
             let (error, not_finite) = worst(shipped);
-            assert!(not_finite == 0 && error <= 2e-3, "{point}");
+            assert!(not_finite == 0 && error <= most, "{point}");
         }
     }
     for formula in formulas {
