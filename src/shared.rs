@@ -298,8 +298,24 @@ shared! {
         HARD_SUBSURFACE = 9;
         /// Square of a tangent's length.
         HARD_TANGENT = 10;
-        /// Form factor of a quadrilateral times 2π.
+        /// Form factor of a quadrilateral.
         HARD_FORM_FACTOR = 11;
+        /// Of its quarters together.
+        HARD_PARTS = 12;
+        /// Of an L.
+        HARD_NOTCH = 13;
+        /// Of a parallelogram with a hole.
+        HARD_HOLE = 14;
+        /// Of an ellipse.
+        HARD_ELLIPSE = 15;
+        /// Of a line.
+        HARD_LINE = 16;
+        /// Of a cube's upper half in the coordinates of a lobe.
+        HARD_FURNACE = 17;
+        /// Part of the view in the surface, along the plane of incidence.
+        HARD_INCIDENCE = 18;
+        /// Coordinate of the tables of transformed cosines.
+        HARD_TABLE = 19;
         /// Specialisation constants of the probe of area lights' estimators: which, `TIER_*`.
         SPEC_TIER = 40;
         /// How many points it takes; of `TIER_SHIPPED` the `light_error` in thousandths.
@@ -1053,13 +1069,13 @@ shared! {
         }
         /// A row of the probe of hard cases: directions, or the corners of a quadrilateral, then parameters.
         HardProbeRow {
-            /// Towards the viewer; the first corner.
+            /// Towards the viewer; of an area light the first corner, its center, or a line's first end.
             a: vec4;
-            /// Towards the light; the second.
+            /// Towards the light; the second corner, a half axis, the other end, the normal, or a lobe's shape.
             b: vec4;
-            /// Parameters; the third.
+            /// Parameters; the third corner, a half axis, or a line's radius.
             c: vec4;
-            /// The fourth.
+            /// The fourth corner, or a hole's size.
             d: vec4;
         }
         /// A row of the area lights' probe.

@@ -3,6 +3,8 @@
 #ifndef BIND_LTC_GLSL
 #define BIND_LTC_GLSL
 
+#include "lib/area/proxy.glsl"
+
 layout(set = SET_scene, binding = SCENE_LTC) uniform texture2DArray ltc_tables;
 
 // Layer of the table of the specular lobe and of the coat; which table that is, the BSDF decides.
@@ -32,7 +34,7 @@ LtcTexel ltc_at(uint table, float r, float cos_o) {
     int layer = 2 * int(table);
     // Behind the last row: last column, last row, r of the first and of the last column.
     vec4 axes = texelFetch(ltc_tables, ivec3(0, LTC_ROWS, layer), 0);
-    vec2 unit = vec2((r - axes.z) / (axes.w - axes.z), sqrt(clamp(1.0 - cos_o, 0.0, 1.0)));
+    vec2 unit = vec2((r - axes.z) / (axes.w - axes.z), view_coordinate(cos_o));
     vec2 at = clamp(unit, 0.0, 1.0) * axes.xy;
     return LtcTexel(ltc_bilinear(layer, at, ivec2(axes.xy)), ltc_bilinear(layer + 1, at, ivec2(axes.xy)));
 }

@@ -1,4 +1,4 @@
-// Formulas that break in float32: as they are usually written, and as they ship in lib/.
+// Formulas of BSDFs that break in float32: as they are usually written, and as they ship in lib/.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -14,7 +14,6 @@ const bool LOBE_CLEARCOAT = true;
 const bool LOBE_SUBSURFACE = true;
 const bool LOBE_METALLIC = true;
 
-#include "lib/area/form_factor.glsl"
 #include "lib/bsdf.glsl"
 #include "lib/frame.glsl"
 
@@ -53,16 +52,6 @@ float naive_subsurface(float ci, float co, float fss90) {
     return fss * (1.0 / (ci + co) - 0.5) + 0.5;
 }
 
-float naive_form_factor(HardProbeRow r) {
-    vec3 corners[4] = vec3[](r.a.xyz, r.b.xyz, r.c.xyz, r.d.xyz);
-    float sum = 0.0;
-    for (uint i = 0u; i < 4u; ++i) {
-        vec3 u = normalize(corners[i]), v = normalize(corners[(i + 1u) % 4u]);
-        sum += acos(dot(u, v)) * normalize(cross(u, v)).z;
-    }
-    return -sum;
-}
-
 float naive(HardProbeRow r) {
     vec3 wo = r.a.xyz, wi = r.b.xyz;
     vec3 h = normalize(wo + wi);
@@ -79,25 +68,8 @@ float naive(HardProbeRow r) {
     }
     if (HARD_FORMULA == HARD_CLEARCOAT) return 1.0 / (1.0 + (alpha2 - 1.0) * h.z * h.z);
     if (HARD_FORMULA == HARD_SUBSURFACE) return naive_subsurface(r.c.x, r.c.y, r.c.z);
-    if (HARD_FORMULA == HARD_TANGENT) {
-        vec3 t = normalize(cross(vec3(0.0, 1.0, 0.0), wo));
-        return dot(t, t);
-    }
-    return naive_form_factor(r);
-}
-
-float shipped_form_factor(HardProbeRow r) {
-    vec3 center = 0.25 * (r.a.xyz + r.b.xyz + r.c.xyz + r.d.xyz);
-    vec3 corners[4] = vec3[](r.a.xyz - center, r.b.xyz - center, r.c.xyz - center, r.d.xyz - center);
-    float radius = 0.0;
-    for (uint i = 0u; i < 4u; ++i) radius = max(radius, length(corners[i]));
-    vec3 anchor = form_factor_anchor(center, radius);
-    FormFactor f = form_factor_begin(anchor);
-    for (uint i = 0u; i < 4u; ++i) {
-        form_factor_edge(f, center - anchor + corners[i], center - anchor + corners[(i + 1u) % 4u]);
-    }
-    form_factor_close_ring(f);
-    return 2.0 * PI * form_factor_end(f);
+    vec3 t = normalize(cross(vec3(0.0, 1.0, 0.0), wo));
+    return dot(t, t);
 }
 
 float shipped(HardProbeRow r) {
@@ -127,11 +99,8 @@ float shipped(HardProbeRow r) {
         m.fresnel_o = pow5(1.0 - r.c.y);
         return principled_subsurface(m, r.c.x, pow5(1.0 - r.c.x), r.c.z);
     }
-    if (HARD_FORMULA == HARD_TANGENT) {
-        vec3 t = any_tangent(wo);
-        return dot(t, t);
-    }
-    return shipped_form_factor(r);
+    vec3 t = any_tangent(wo);
+    return dot(t, t);
 }
 
 void main() {

@@ -74,6 +74,11 @@ fn describe(
         api: requirements::version_text(properties.api_version),
         kind,
         ray_queries: properties.api_version >= vk::API_VERSION_1_2 && ray_tree::there(instance, physical),
+        pipeline_statistics: requirements::has_extensions(
+            instance,
+            physical,
+            &[ash::khr::pipeline_executable_properties::NAME],
+        ),
         report,
     };
     Candidate {

@@ -45,6 +45,8 @@ pub struct DeviceInfo {
     pub kind: &'static str,
     /// Whether rays are traced by ray queries.
     pub ray_queries: bool,
+    /// Whether the driver tells what it makes of a pipeline: instructions, registers.
+    pub pipeline_statistics: bool,
     /// What amas needs, row by row.
     #[serde(skip)]
     pub report: Report,

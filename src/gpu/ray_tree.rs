@@ -1,6 +1,7 @@
 //! A tree over triangles of the driver's own, which shaders ask by ray queries, where the device has these.
 
 use super::device::Device;
+use super::requirements::has_extensions;
 use super::{Buffer, BufferUse, Called, Use};
 use crate::error::Result;
 use ash::{khr, vk};
@@ -17,12 +18,7 @@ type Instance = [u32; 16];
 
 /// Whether a device has all that ray queries take.
 pub(super) fn there(instance: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
-    // SAFETY: the device belongs to the instance.
-    let Ok(found) = (unsafe { instance.enumerate_device_extension_properties(physical) }) else {
-        return false;
-    };
-    let named = |name| found.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name));
-    if !EXTENSIONS.into_iter().all(named) {
+    if !has_extensions(instance, physical, &EXTENSIONS) {
         return false;
     }
     let mut addresses = vk::PhysicalDeviceBufferDeviceAddressFeatures::default();
@@ -32,7 +28,7 @@ pub(super) fn there(instance: &ash::Instance, physical: vk::PhysicalDevice) -> b
         .push_next(&mut addresses)
         .push_next(&mut structures)
         .push_next(&mut queries);
-    // SAFETY: as above; the chain outlives the call, and its extensions are there.
+    // SAFETY: the device belongs to the instance; the chain outlives the call, and its extensions are there.
     unsafe { instance.get_physical_device_features2(physical, &mut features) };
     [addresses.buffer_device_address, structures.acceleration_structure, queries.ray_query] == [vk::TRUE; 3]
 }

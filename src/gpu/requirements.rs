@@ -1,6 +1,7 @@
 //! What amas needs of a device, in one table; a missing thing is a sentence.
 
 use ash::vk;
+use std::ffi::CStr;
 
 /// What a check may look at.
 pub(super) struct Facts<'a> {
@@ -39,6 +40,14 @@ impl Report {
             .collect();
         (!missing.is_empty()).then(|| missing.join("; "))
     }
+}
+
+/// Whether a device has all of these extensions.
+pub(super) fn has_extensions(instance: &ash::Instance, device: vk::PhysicalDevice, names: &[&CStr]) -> bool {
+    // SAFETY: the device belongs to the instance.
+    let found = unsafe { instance.enumerate_device_extension_properties(device) }.unwrap_or_default();
+    let has = |name| found.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name));
+    names.iter().all(|name| has(name))
 }
 
 type Limit = (&'static str, u64, fn(&vk::PhysicalDeviceLimits) -> u64, &'static str);

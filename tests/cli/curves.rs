@@ -2,7 +2,8 @@
 
 use crate::Folder;
 
-const FILES: [&str; 6] = ["area.csv", "area.json", "area.md", "area.png", "area.svg", "scene.toml"];
+const FILES: [&str; 8] =
+    ["area.csv", "area.json", "area.md", "area.png", "area.svg", "scene.toml", "sizes.png", "sizes.svg"];
 
 #[test]
 fn area_lights() {
@@ -16,8 +17,22 @@ fn area_lights() {
         assert!(!json[key].is_null(), "{key}");
     }
     let points = json["points"].as_array().unwrap();
+    let sizes = json["sizes"].as_array().unwrap();
     let csv = String::from_utf8(folder.read("area.csv")).unwrap();
-    assert_eq!(csv.lines().count(), points.len() + 1);
+    assert_eq!(csv.lines().count(), points.len() + sizes.len() + 1);
+    // However small or large the light: what ships, and points that are all of a tiny light.
+    for p in sizes {
+        let [share, error] = ["share", "error"].map(|key| p[key].as_f64().unwrap());
+        let most = match p["tier"].as_str().unwrap() {
+            "amas, error 0" => 0.005,
+            "amas, error .01" => 0.01,
+            "cubature 2x2" | "cubature 4x4" if share < 1e-3 => 0.005,
+            _ => f64::INFINITY,
+        };
+        assert!(error < most, "{p}");
+    }
+    let counts = [1e-4, 0.1].map(|share| sizes.iter().filter(|p| p["share"] == share).count());
+    assert_eq!(counts, [34, 34]);
     for band in ["sharp", "rough"] {
         let of = |tier: &str, key: &str| {
             let point = points.iter().find(|p| p["band"] == band && p["model"] == "all" && p["tier"] == tier);
@@ -49,6 +64,8 @@ fn area_lights() {
     }
     let png = image::load_from_memory(&folder.read("area.png")).unwrap();
     assert_eq!((png.width(), png.height()), (1560, 800));
+    let sizes = String::from_utf8(folder.read("sizes.svg")).unwrap();
+    assert!(sizes.contains("equal time"), "{sizes}");
     let svg = String::from_utf8(folder.read("area.svg")).unwrap();
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
     for text in [svg, String::from_utf8(folder.read("area.md")).unwrap()] {
@@ -158,14 +175,22 @@ fn hard_cases() {
     };
     let mut formulas: Vec<&str> = points.iter().map(|p| p["formula"].as_str().unwrap()).collect();
     formulas.dedup();
-    assert!(formulas.len() >= 12, "{formulas:?}");
+    assert!(formulas.len() >= 20, "{formulas:?}");
     for point in points {
-        // What ships is finite everywhere and right to what the contract grants form factors.
+        // What ships is finite everywhere and right to what the contract grants form factors, and √(1 − n·wo) to the root of a
+        // rounding. Thin lines whose vertices round to more than their width lose a third of the 3e-4 that they give at most:
+        // known, and no worse.
+        let most = match (point["absolute"].as_bool().unwrap(), point["formula"].as_str().unwrap()) {
+            (false, _) => 2e-3,
+            (true, "form factor of a line") => 1e-4,
+            (true, "the tables' coordinate") => 5e-4,
+            (true, _) => 2e-6,
+        };
         for shipped in
             ["shipped_cpu", "shipped_device"].map(|key| &point[key]).into_iter().filter(|v| !v.is_null())
         {
             let (error, not_finite) = worst(shipped);
-            assert!(not_finite == 0 && error <= 2e-3, "{point}");
+            assert!(not_finite == 0 && error <= most, "{point}");
         }
     }
     for formula in formulas {
@@ -223,7 +248,8 @@ fn samples() {
 fn choices() {
     let folder = Folder::new();
     let printed = folder.done(&["report", "--chapter", "choices", "--quick"]);
-    assert_eq!(folder.names(), ["choices.csv", "choices.json", "choices.md", "scene.toml"]);
+    let files = ["choices.csv", "choices.json", "choices.md", "choices.png", "choices.svg", "scene.toml"];
+    assert_eq!(folder.names(), files);
     let json = folder.json("choices.json");
     let tables = json["tables"].as_array().unwrap();
     for layer in ["metal", "plastic"] {

@@ -24,6 +24,9 @@ Proxy proxy_in(mat3 frame, float a, float b, float c, float d) {
     return Proxy(q_from_frame * transpose(frame), frame * frame_from_q, 1.0 / abs(determinant));
 }
 
+// Coordinate of the fitted tables for n·wo, which rounding may leave above 1: √(1 − n·wo), fine where lobes change fast.
+float view_coordinate(float cos_o) { return sqrt(clamp(1.0 - cos_o, 0.0, 1.0)); }
+
 // z along the mirror direction 2 (n·wo) n − wo, y across the plane of incidence; any tangent where wo = n.
 mat3 mirror_frame(vec3 wo) {
     vec2 across = vec2(-wo.y, wo.x);  // n × wo

@@ -4,6 +4,7 @@ mod configurations;
 mod figures;
 mod page;
 mod plot;
+mod sizes;
 mod tiers;
 
 use super::super::report::Origin;
@@ -12,9 +13,11 @@ use super::{progress, save_tables};
 use crate::error::Result;
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
-use crate::scene::Scene;
-use configurations::{BANDS, DISTRIBUTION, MODELS, SHAPES, configurations, material};
-use figures::{FLOOR, Point, complete};
+use crate::scene::{Model, Scene};
+use configurations::{
+    BANDS, Configuration, DISTRIBUTION, Lights, MODELS, SHAPES, SHARES, configurations, material,
+};
+use figures::{FLOOR, Point, complete, front};
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -22,24 +25,38 @@ use std::sync::Arc;
 use tiers::{Bench, Family, Pipelines, TIERS};
 
 /// What is written.
-pub(super) const FILES: [&str; 5] = ["area.csv", "area.json", "area.md", "area.svg", "area.png"];
+pub(super) const FILES: [&str; 7] =
+    ["area.csv", "area.json", "area.md", "area.svg", "area.png", "sizes.svg", "sizes.png"];
 
 /// How much is measured.
+#[derive(Clone, Copy)]
 struct Extent {
     configurations: usize,
     repetitions: usize,
     models: usize,
     shapes: usize,
+    /// Of [`SHARES`].
+    shares: &'static [f64],
     /// Standard error of the oracle, relative.
     tolerance: f64,
 }
 
-const FULL: Extent = Extent { configurations: 64, repetitions: 9, models: 2, shapes: 3, tolerance: 2e-4 };
-const QUICK: Extent = Extent { configurations: 12, repetitions: 1, models: 1, shapes: 1, tolerance: 1e-3 };
+const FULL: Extent =
+    Extent { configurations: 64, repetitions: 9, models: 2, shapes: 3, shares: &SHARES, tolerance: 2e-4 };
+const QUICK: Extent = Extent {
+    configurations: 12,
+    repetitions: 1,
+    models: 1,
+    shapes: 1,
+    shares: &[SHARES[0], SHARES[3]],
+    tolerance: 1e-3,
+};
 
 /// Everything that was measured.
 struct Figures {
     points: Vec<Point>,
+    /// By the light's size.
+    sizes: Vec<Point>,
     extent: String,
     quick: bool,
 }
@@ -54,6 +71,8 @@ struct File<'a> {
     /// Errors are relative to the truth, or to this share of the mean truth of the cell.
     floor: f64,
     points: &'a [Point],
+    /// The same by the light's size.
+    sizes: &'a [Point],
 }
 
 /// Measures and writes; what is printed.
@@ -68,37 +87,70 @@ fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
     let extent = if quick { QUICK } else { FULL };
     let models = &MODELS[MODELS.len() - extent.models..];
     let shapes = &SHAPES[..extent.shapes];
-    let bar = progress(models.len() * shapes.len() * TIERS.len() * (1 + BANDS.len() * extent.repetitions));
+    let cells =
+        (models.len() * shapes.len() + 1, BANDS.len() * (models.len() * shapes.len() + extent.shares.len()));
+    let bar = progress(TIERS.len() * (cells.0 + cells.1 * extent.repetitions));
     let mut points = Vec::new();
-    for &(name, model) in models {
+    for &model in models {
         for &shape in shapes {
-            bar.set_message(format!("{name}, {shape}"));
-            let cells = BANDS.map(|(_, alphas)| {
-                configurations(model, shape, alphas, extent.configurations, extent.tolerance)
-            });
-            let lights = cells.iter().flatten().flat_map(|one| &one.lights).cloned().collect();
-            let scene = Scene { area_lights: lights, materials: vec![material(model)], ..Scene::default() };
-            let scene = GpuScene::new(device, &scene)?;
-            let pipelines = Pipelines::new(device, model, &scene.area.specialization, || bar.inc(1))?;
-            let mut first = 0;
-            for ((band, _), cell) in BANDS.into_iter().zip(&cells) {
-                let bench = Bench::new(device, &scene, &pipelines, cell, first)?;
-                first += cell.iter().map(|one| one.lights.len()).sum::<usize>();
-                let times = times(&bench, extent.repetitions, &bar)?;
-                for (index, tier) in TIERS.iter().enumerate().filter(|(_, tier)| tier.family != Family::None)
-                {
-                    let values = bench.values(index)?;
-                    points.push(Point::new([band, name, shape], tier, &times[index], cell, &values));
-                }
-            }
+            let any = |(band, alphas)| Cell { band, alphas, model, shape, share: None };
+            points.extend(of_cells(device, &BANDS.map(any), extent, &bar)?);
         }
     }
+    let model = MODELS[MODELS.len() - 1];
+    let swept = |share: f64| {
+        BANDS.map(|(band, alphas)| Cell { band, alphas, model, shape: "square", share: Some(share) })
+    };
+    let swept: Vec<Cell> = extent.shares.iter().copied().flat_map(swept).collect();
+    let mut sizes = of_cells(device, &swept, extent, &bar)?;
+    front(&mut sizes);
     bar.finish_and_clear();
     let extent = format!(
         "{} surfaces a cell with 8 lights each, {} repetitions, oracle to {:e}",
         extent.configurations, extent.repetitions, extent.tolerance
     );
-    Ok(Figures { points: complete(points, BANDS.map(|(band, _)| band)), extent, quick })
+    Ok(Figures { points: complete(points, BANDS.map(|(band, _)| band)), sizes, extent, quick })
+}
+
+/// Surfaces and lights that are measured together.
+#[derive(Clone, Copy)]
+struct Cell {
+    band: &'static str,
+    alphas: &'static [f64],
+    model: (&'static str, Model),
+    shape: &'static str,
+    /// Of the hemisphere's solid angle; `None`: any size.
+    share: Option<f64>,
+}
+
+impl Cell {
+    fn configurations(&self, extent: Extent) -> Vec<Configuration> {
+        let lights = self.share.map_or(Lights::Any(self.shape), Lights::Squares);
+        configurations(self.model.1, lights, self.alphas, extent.configurations, extent.tolerance)
+    }
+}
+
+/// All tiers on cells of one model and one kind of light.
+fn of_cells(device: &Arc<Device>, cells: &[Cell], extent: Extent, bar: &ProgressBar) -> Result<Vec<Point>> {
+    let Some(&Cell { model: (name, model), shape, .. }) = cells.first() else { return Ok(Vec::new()) };
+    bar.set_message(format!("{name}, {shape}"));
+    let filled: Vec<_> = cells.iter().map(|cell| cell.configurations(extent)).collect();
+    let lights = filled.iter().flatten().flat_map(|one| &one.lights).cloned().collect();
+    let scene = Scene { area_lights: lights, materials: vec![material(model)], ..Scene::default() };
+    let scene = GpuScene::new(device, &scene)?;
+    let pipelines = Pipelines::new(device, model, &scene.area.specialization, || bar.inc(1))?;
+    let (mut first, mut points) = (0, Vec::new());
+    for (cell, filled) in cells.iter().zip(&filled) {
+        let bench = Bench::new(device, &scene, &pipelines, filled, first)?;
+        first += filled.iter().map(|one| one.lights.len()).sum::<usize>();
+        let times = times(&bench, extent.repetitions, bar)?;
+        for (index, tier) in TIERS.iter().enumerate().filter(|(_, tier)| tier.family != Family::None) {
+            let values = bench.values(index)?;
+            let names = [cell.band, name, shape];
+            points.push(Point::new(names, cell.share, tier, &times[index], filled, &values));
+        }
+    }
+    Ok(points)
 }
 
 /// Nanoseconds of every tier in turn, again and again, less those of the one that does nothing.
@@ -117,8 +169,8 @@ fn times(bench: &Bench<'_>, repetitions: usize, bar: &ProgressBar) -> Result<Vec
 }
 
 /// Writes [`FILES`], each to its path.
-fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result<()> {
-    let [csv, json, markdown, svg, png] = paths;
+fn write(paths: &[PathBuf; 7], device: &DeviceInfo, figures: &Figures) -> Result<()> {
+    let [csv, json, markdown, svg, png, sizes_svg, sizes_png] = paths;
     let content = File {
         origin: Origin::of(device),
         quick: figures.quick,
@@ -126,8 +178,10 @@ fn write(paths: &[PathBuf; 5], device: &DeviceInfo, figures: &Figures) -> Result
         extent: &figures.extent,
         floor: FLOOR,
         points: &figures.points,
+        sizes: &figures.sizes,
     };
-    let rows = |file: &mut _| page::csv(file, &figures.points);
+    let rows = |file: &mut _| page::csv(file, figures.points.iter().chain(&figures.sizes));
     save_tables([csv, json, markdown], rows, &content, &page::page(device, figures))?;
-    plots::save([svg, png], &plot::AreaPlot(&figures.points))
+    plots::save([svg, png], &plot::AreaPlot(&figures.points))?;
+    plots::save([sizes_svg, sizes_png], &sizes::SizesPlot(&figures.sizes))
 }

@@ -4,9 +4,11 @@
 mod cones;
 mod halves;
 mod page;
+mod plot;
 mod tables;
 
 use super::super::report::Origin;
+use super::plot as plots;
 use super::{progress, save_tables};
 use crate::error::Result;
 use crate::gpu::{Device, DeviceInfo};
@@ -18,7 +20,8 @@ use std::sync::Arc;
 use tables::Stored;
 
 /// What is written.
-pub(super) const FILES: [&str; 3] = ["choices.csv", "choices.json", "choices.md"];
+pub(super) const FILES: [&str; 5] =
+    ["choices.csv", "choices.json", "choices.md", "choices.svg", "choices.png"];
 
 /// How much is measured.
 #[derive(Clone, Copy)]
@@ -67,13 +70,14 @@ pub(super) fn run(device: &Arc<Device>, quick: bool, out: &Path) -> Result<Strin
 
 /// Writes [`FILES`], each to its path.
 fn write(
-    paths: &[PathBuf; 3],
+    paths: &[PathBuf; 5],
     device: &DeviceInfo,
     figures: &Figures,
     (quick, extent): (bool, Extent),
 ) -> Result<()> {
-    let [csv, json, markdown] = paths;
+    let [csv, json, markdown, svg, png] = paths;
     let content = File { origin: Origin::of(device), quick, places: extent.places, figures };
     let rows = |file: &mut _| page::csv(file, figures);
-    save_tables([csv, json, markdown], rows, &content, &page::page(figures, quick, extent))
+    save_tables([csv, json, markdown], rows, &content, &page::page(figures, quick, extent))?;
+    plots::save([svg, png], &plot::ChoicesPlot(&figures.tables))
 }

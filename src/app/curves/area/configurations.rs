@@ -21,6 +21,29 @@ pub(super) const BANDS: [(&str, &[f64]); 2] = [("sharp", &[0.05, 0.1]), ("rough"
 pub(super) const MODELS: [(&str, Model); 2] = [("metal", Model::Metal), ("plastic", Model::Plastic)];
 pub(super) const SHAPES: [&str; 3] = ["rectangle", "ellipse", "line"];
 
+/// Solid angles of squares that are swept, over that of the hemisphere.
+pub(super) const SHARES: [f64; 6] = [1e-4, 1e-3, 1e-2, 0.1, 0.3, 0.9];
+
+/// Lights of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Lights {
+    /// Of this shape and any size, turned anyhow.
+    Any(&'static str),
+    /// Squares that face the point, with this share of the hemisphere's solid angle.
+    Squares(f64),
+}
+
+impl Lights {
+    /// Of the random numbers, with the model's: no two cells share theirs.
+    fn seed(self, model: Model) -> u64 {
+        let name = match self {
+            Self::Any(shape) => shape.to_owned(),
+            Self::Squares(share) => share.to_string(),
+        };
+        name.bytes().fold(model as u64 + 1, |seed, byte| (seed << 7) ^ u64::from(byte))
+    }
+}
+
 /// Gold at red, green and blue.
 const ETA: Vec3 = Vec3::new(0.143, 0.375, 1.442);
 const K: Vec3 = Vec3::new(3.983, 2.386, 1.603);
@@ -61,7 +84,7 @@ pub(super) struct Configuration {
 }
 
 impl Configuration {
-    fn new(random: &mut Random, model: Model, shape: &str, alphas: &[f64]) -> Self {
+    fn new(random: &mut Random, model: Model, lights: Lights, alphas: &[f64]) -> Self {
         let alpha = alphas[(random.next() * alphas.len() as f64) as usize] as f32;
         let (sin, cos) = (85.0 * random.next()).to_radians().sin_cos();
         let (y, x) = (std::f64::consts::TAU * random.next()).sin_cos();
@@ -80,7 +103,7 @@ impl Configuration {
         };
         let frame = Frame { tangent: DVec3::X, bitangent: DVec3::Y, normal: DVec3::Z };
         let surface = Surface { position: DVec3::ZERO, frame, wo: wo.as_dvec3().normalize(), bsdf };
-        let lights = (0..TIER_LIGHTS).map(|_| light(random, &surface, shape)).collect();
+        let lights = (0..TIER_LIGHTS).map(|_| light(random, &surface, lights)).collect();
         let row = AreaTierRow {
             color_alpha: color.extend(alpha).to_array(),
             specular_eta: specular.extend(INDEX).to_array(),
@@ -101,35 +124,56 @@ impl Configuration {
     }
 }
 
-fn light(random: &mut Random, surface: &Surface, shape: &str) -> AreaLight {
+fn light(random: &mut Random, surface: &Surface, lights: Lights) -> AreaLight {
     let aimed = surface.bsdf.sample(surface.wo, DVec2::new(random.next(), random.next()));
     let center = match aimed.try_normalize() {
         Some(aimed) if aimed.z > 0.0 && random.next() < 0.5 => aimed,
         _ => random.above(),
     };
+    let shape = match lights {
+        Lights::Any(shape) => turned(random, center, shape),
+        Lights::Squares(share) => square(random, center, share),
+    };
+    AreaLight { shape, radiance: Vec3::ONE, two_sided: false, visible: false, texture: None }
+}
+
+/// At distance 1, facing the point: its solid angle is 4 asin(h²/(1 + h²)) for half a side of h.
+fn square(random: &mut Random, center: DVec3, share: f64) -> AreaShape {
+    let sine = (0.5 * std::f64::consts::PI * share).sin();
+    let half = (sine / (1.0 - sine)).sqrt();
+    let x = center.cross(random.above()).normalize();
+    // Its front, u × v, is towards the point.
+    AreaShape::Rect {
+        center: center.as_vec3(),
+        u: (half * x).as_vec3(),
+        v: (half * x.cross(center)).as_vec3(),
+    }
+}
+
+fn turned(random: &mut Random, center: DVec3, shape: &str) -> AreaShape {
     let normal = (random.above() - 2.0 * center).normalize();
     let x = normal.cross(random.above()).normalize();
     let (across, along) = (random.between(0.02, 1.0), random.between(0.02, 1.0));
     let (center, u, v) = (center.as_vec3(), (across * x).as_vec3(), (along * normal.cross(x)).as_vec3());
-    let shape = match shape {
+    match shape {
         "rectangle" => AreaShape::Rect { center, u, v },
         "ellipse" => AreaShape::Disk { center, u, v },
         _ => AreaShape::Line { a: center - u, b: center + u, radius: random.between(0.005, 0.05) as f32 },
-    };
-    AreaLight { shape, radiance: Vec3::ONE, two_sided: false, visible: false, texture: None }
+    }
 }
 
 /// `count` of them with their truth, the same at every call.
 pub(super) fn configurations(
     model: Model,
-    shape: &str,
+    lights: Lights,
     alphas: &[f64],
     count: usize,
     tolerance: f64,
 ) -> Vec<Configuration> {
-    let seed = shape.bytes().fold(model as u64 + 1, |seed, byte| (seed << 7) ^ u64::from(byte));
+    let seed = lights.seed(model);
     let mut random = Random((alphas[0] * 1e6) as u64 ^ (seed << 20) ^ 0x9e37_79b9_7f4a_7c15);
-    let mut all: Vec<_> = (0..count).map(|_| Configuration::new(&mut random, model, shape, alphas)).collect();
+    let mut all: Vec<_> =
+        (0..count).map(|_| Configuration::new(&mut random, model, lights, alphas)).collect();
     all.par_iter_mut().for_each(|one| {
         let truth = |(light, seed)| {
             let emitters = [Emitter::new(light, &[])];
@@ -149,4 +193,30 @@ pub(super) fn material(model: Model) -> Material {
     set(Parameter::Eta, [INDEX; 3]);
     let name = "measured".into();
     Material { name, model, parameters, squared_roughness: false, two_sided: true }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Solid angles by the triangles of their corners (Van Oosterom and Strackee 1983), and their front.
+    #[test]
+    fn squares_have_their_share() {
+        for share in SHARES {
+            let AreaShape::Rect { center, u, v } = square(&mut Random(7), DVec3::new(0.6, 0.0, 0.8), share)
+            else {
+                panic!("no square")
+            };
+            assert!(u.cross(v).dot(center) < 0.0, "{share}");
+            let corners =
+                [-u - v, u - v, u + v, v - u].map(|corner| (center + corner).as_dvec3().normalize());
+            let triangle = |a: DVec3, b: DVec3, c: DVec3| {
+                2.0 * a.dot(b.cross(c)).abs().atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
+            };
+            let angle =
+                triangle(corners[0], corners[1], corners[2]) + triangle(corners[2], corners[3], corners[0]);
+            let got = angle / std::f64::consts::TAU;
+            assert!((got / share - 1.0).abs() < 1e-4, "{share}: {got}");
+        }
+    }
 }

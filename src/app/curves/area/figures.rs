@@ -18,6 +18,8 @@ pub(super) struct Point {
     pub(super) shape: &'static str,
     pub(super) tier: &'static str,
     pub(super) family: Family,
+    /// Of the light's solid angle in the hemisphere's; `null` where sizes are random.
+    pub(super) share: Option<f64>,
     /// Nanoseconds per light and pixel: median, and its median absolute deviation.
     pub(super) ns: f64,
     pub(super) ns_mad: f64,
@@ -35,6 +37,7 @@ pub(super) struct Point {
 impl Point {
     pub(super) fn new(
         [band, model, shape]: [&'static str; 3],
+        share: Option<f64>,
         tier: &Tier,
         times: &[f64],
         configurations: &[Configuration],
@@ -63,6 +66,7 @@ impl Point {
             shape,
             tier: tier.name,
             family: tier.family,
+            share,
             ns: time.median,
             ns_mad: time.mad,
             error: errors.iter().sum::<f64>() / errors.len() as f64,
@@ -92,6 +96,7 @@ pub(super) fn complete(mut points: Vec<Point>, bands: impl IntoIterator<Item = &
                 shape: "all",
                 tier: tier.name,
                 family: tier.family,
+                share: None,
                 ns: mean(&|p| p.ns),
                 ns_mad: mean(&|p| p.ns_mad),
                 error: mean(&|p| p.error),
@@ -103,11 +108,17 @@ pub(super) fn complete(mut points: Vec<Point>, bands: impl IntoIterator<Item = &
             points.push(point);
         }
     }
-    let same = |a: &Point, b: &Point| (a.band, a.model, a.shape) == (b.band, b.model, b.shape);
+    front(&mut points);
+    points
+}
+
+/// Marks what nothing of the same cell beats.
+pub(super) fn front(points: &mut [Point]) {
+    let cell = |p: &Point| (p.band, p.model, p.shape, p.share.map(f64::to_bits));
+    let same = |a: &Point, b: &Point| cell(a) == cell(b);
     let beaten = |p: &Point| points.iter().any(|q| same(p, q) && q.ns < p.ns && q.error <= p.error);
     let front: Vec<bool> = points.iter().map(|p| !beaten(p)).collect();
     for (point, pareto) in points.iter_mut().zip(front) {
         point.pareto = pareto;
     }
-    points
 }

@@ -1,21 +1,22 @@
 //! The chapter on area lights as text.
 
-use super::Figures;
 use super::configurations::{BANDS, DISTRIBUTION, SHAPES};
 use super::figures::{FLOOR, Point};
 use super::tiers::{Family, TIERS};
+use super::{Figures, sizes};
 use crate::gpu::DeviceInfo;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
-    writeln!(file, "band,model,shape,tier,ns,ns_mad,error,error_p99,bias,count,pareto")?;
-    points.iter().try_for_each(|p| {
+pub(super) fn csv<'a>(file: &mut impl Write, mut points: impl Iterator<Item = &'a Point>) -> io::Result<()> {
+    writeln!(file, "band,model,shape,share,tier,ns,ns_mad,error,error_p99,bias,count,pareto")?;
+    points.try_for_each(|p| {
+        let share = p.share.map_or_else(String::new, |share| share.to_string());
         let (band, model, shape, tier) = (p.band, p.model, p.shape, p.tier.replace(',', ""));
         let front = u8::from(p.pareto);
         writeln!(
             file,
-            "{band},{model},{shape},{tier},{:.2},{:.2},{:.6},{:.6},{:.6},{},{front}",
+            "{band},{model},{shape},{share},{tier},{:.2},{:.2},{:.6},{:.6},{:.6},{},{front}",
             p.ns, p.ns_mad, p.error, p.error_p99, p.bias, p.count
         )
     })
@@ -101,6 +102,7 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
             let _ = writeln!(text, "| {} |{errors}", tier.name);
         }
     }
+    sizes::section(&mut text, &figures.sizes);
     text
 }
 

@@ -8,7 +8,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 const SIZE: (u32, u32) = (1560, 800);
-const FAMILIES: [(Family, RGBColor); 7] = [
+pub(super) const FAMILIES: [(Family, RGBColor); 7] = [
     (Family::Representative, RGBColor(200, 30, 30)),
     (Family::Cubature, RGBColor(30, 90, 200)),
     (Family::ClosedForm, RGBColor(150, 40, 170)),
@@ -24,7 +24,7 @@ const AXES: &str =
 const LEAST: f64 = 1e-9;
 
 /// What the axis takes at a panel's left.
-const MARGIN: i32 = 80;
+pub(super) const MARGIN: i32 = 80;
 
 /// The plot of a set of points.
 pub(super) struct AreaPlot<'a>(pub(super) &'a [Point]);

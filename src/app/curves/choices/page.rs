@@ -64,6 +64,7 @@ fn tables(text: &mut String, figures: &Figures, extent: Extent) {
          Error: the most by which the lobe's integral over any directions may be off, over its albedo, at {} random places \
          of the table up to 88°. *Own fits* are made for each place. A lookup takes as long whatever the number of texels, \
          so that bytes stand for cost: those of matrices and moments of one layer.\n\n\
+         ![Mean error over bytes](choices.png)\n\n\
          | layer | texels a side | stored as | bytes | mean error | worst | |\n| --- | --- | --- | --- | --- | --- | --- |\n",
         extent.places
     );

@@ -89,5 +89,12 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
             cell(&p.used_ratio)
         );
     }
+    text.push_str(if device.pipeline_statistics {
+        "\nThis driver tells the instructions and registers of pipelines (`VK_KHR_pipeline_executable_properties`); nothing asks \
+         it yet.\n"
+    } else {
+        "\nHow many instructions or registers a pipeline takes, this driver does not tell: it is without \
+         `VK_KHR_pipeline_executable_properties`.\n"
+    });
     text
 }

@@ -1,6 +1,6 @@
 //! The chapter on hard cases as text.
 
-use super::formulas::FORMULAS;
+use super::formulas::formulas;
 use super::pictures::Picture;
 use super::{Point, Verdict};
 use crate::gpu::DeviceInfo;
@@ -10,16 +10,17 @@ use std::io::{self, Write};
 pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
     writeln!(
         file,
-        "formula,case,rows,naive_cpu_worst,naive_cpu_not_finite,shipped_cpu_worst,shipped_cpu_not_finite,\
+        "formula,case,absolute,rows,naive_cpu_worst,naive_cpu_not_finite,shipped_cpu_worst,shipped_cpu_not_finite,\
          naive_device_worst,naive_device_not_finite,shipped_device_worst,shipped_device_mean,shipped_device_not_finite"
     )?;
     points.iter().try_for_each(|p| {
         let pair = |v: &Verdict| format!("{:.3e},{}", v.worst, v.not_finite);
         writeln!(
             file,
-            "\"{}\",\"{}\",{},{},{},{},{:.3e},{:.3e},{}",
+            "\"{}\",\"{}\",{},{},{},{},{},{:.3e},{:.3e},{}",
             p.formula,
             p.case,
+            p.absolute,
             p.rows,
             pair(&p.naive_cpu),
             p.shipped_cpu.as_ref().map_or_else(|| ",".into(), pair),
@@ -31,23 +32,23 @@ pub(super) fn csv(file: &mut impl Write, points: &[Point]) -> io::Result<()> {
     })
 }
 
-fn cell(verdict: &Verdict) -> String {
+fn cell(verdict: &Verdict, absolute: bool) -> String {
     let infinite =
         if verdict.not_finite > 0 { format!(", {} NaN", verdict.not_finite) } else { String::new() };
-    format!("{:.1e}{infinite}", verdict.worst)
+    format!("{:.1e}{}{infinite}", verdict.worst, if absolute { " abs." } else { "" })
 }
 
 /// What is printed.
 pub(super) fn summary(points: &[Point], pictures: &[Picture]) -> String {
     let mut text =
-        format!("{:<28}{:<52}{:>22}  {:>22}\n", "hard case", "", "usual, on the device", "shipped");
+        format!("{:<30}{:<60}{:>22}  {:>22}\n", "hard case", "", "usual, on the device", "shipped");
     for p in points {
-        let (naive, shipped) = (cell(&p.naive_device), cell(&p.shipped_device));
+        let (naive, shipped) = (cell(&p.naive_device, p.absolute), cell(&p.shipped_device, p.absolute));
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{:<28}{:<52}{naive:>22}  {shipped:>22}", p.formula, p.case);
+        let _ = writeln!(text, "{:<30}{:<60}{naive:>22}  {shipped:>22}", p.formula, p.case);
     }
     for p in pictures {
-        let _ = writeln!(text, "{:<16}{:<64}{:>22}  {:>22}", p.what, p.case, "", of_picture(p));
+        let _ = writeln!(text, "{:<16}{:<74}{:>22}  {:>22}", p.what, p.case, "", of_picture(p));
     }
     text.trim_end().to_owned()
 }
@@ -55,7 +56,7 @@ pub(super) fn summary(points: &[Point], pictures: &[Picture]) -> String {
 /// Worst error or ratio, and how many values are not finite.
 fn of_picture(p: &Picture) -> String {
     let worst = p.worst.unwrap_or(p.largest[0]);
-    cell(&Verdict { worst, mean: 0.0, not_finite: p.not_finite })
+    cell(&Verdict { worst, mean: 0.0, not_finite: p.not_finite }, false)
 }
 
 pub(super) fn page(device: &DeviceInfo, (points, pictures): (&[Point], &[Picture]), quick: bool) -> String {
@@ -67,15 +68,21 @@ pub(super) fn page(device: &DeviceInfo, (points, pictures): (&[Point], &[Picture
          Written by `amas report --chapter hard{option} --out DIR` at {commit} on {} ({}, Vulkan {}). `hard.csv` has the \
          formulas, `hard.json` every figure. Nothing here is timed.\n\n\
          Each formula as it is usually written and as it ships in `glsl/lib/`, on {rows} random inputs of each kind: worst \
-         relative error against double precision, and how many values were infinite or no numbers (NaN). *Processor* is \
-         float32 in Rust, *device* a compute shader (`glsl/probe/hard.comp`) that includes what ships unchanged. Directions \
+         relative error against double precision, or absolute error (abs.) where the value may be 0, and how many values were \
+         infinite or no numbers (NaN). *Processor* is \
+         float32 in Rust, *device* a compute shader (`glsl/probe/hard.comp`, `hard_area.comp`) that includes what ships unchanged. Directions \
          are rounded to float32, and the truth is that of their unit vectors; of the two D, which need the half vector's direction \
-         only, that of the rounded ones.\n\n\
+         only, that of the rounded ones. Of form factors it is the contour above the horizon, arcs by adaptive \
+         quadrature. The usual disk is by intent a sphere where that reaches below the horizon, and the usual line has no width: \
+         a cylinder has .27 of radius over distance less. What ships for lines has vertices on either side, which round to 6e-8 \
+         of the distance to its ends: of a line that is hardly wider it keeps few digits, and there the usual form is the better \
+         one.\n\n\
          | formula | inputs | usual, processor | shipped, processor | usual, device | shipped, device |\n\
          | --- | --- | --- | --- | --- | --- |\n",
         device.name, device.driver, device.api
     );
     for p in points {
+        let cell = |verdict: &Verdict| cell(verdict, p.absolute);
         let shipped_cpu = p.shipped_cpu.as_ref().map_or_else(|| "–".into(), cell);
         let _ = writeln!(
             text,
@@ -88,7 +95,7 @@ pub(super) fn page(device: &DeviceInfo, (points, pictures): (&[Point], &[Picture
         );
     }
     text.push_str("\nThe two forms of each:\n\n| formula | usual | shipped |\n| --- | --- | --- |\n");
-    for formula in FORMULAS {
+    for formula in formulas() {
         let escaped = |form: &str| form.replace('|', "\\|");
         let (usual, shipped) = (escaped(formula.naive_text), escaped(formula.shipped_text));
         let _ = writeln!(text, "| {} | {usual} | {shipped} |", formula.name);

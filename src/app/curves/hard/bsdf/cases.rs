@@ -1,25 +1,9 @@
-//! Inputs on which formulas break, from random numbers: four slots of four numbers that float32 holds.
+//! Inputs on which formulas of BSDFs break: two directions and parameters.
 
-use super::formulas::{Case, Slots};
+use super::super::formulas::{Case, Slots, relative as case};
+use super::super::inputs::{above, apart, at_cosine, ratio};
 use crate::reference::sampler::Random;
 use glam::DVec3;
-
-/// By equal ratios.
-fn ratio(random: &mut Random, least: f64, most: f64) -> f64 {
-    least * (most / least).powf(random.next())
-}
-
-/// With this cosine to +z, at any azimuth.
-fn at_cosine(random: &mut Random, cosine: f64) -> DVec3 {
-    let (sin, cos) = (std::f64::consts::TAU * random.next()).sin_cos();
-    let radius = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
-    DVec3::new(radius * cos, radius * sin, cosine)
-}
-
-fn above(random: &mut Random) -> DVec3 {
-    let cosine = 0.05 + 0.95 * random.next();
-    at_cosine(random, cosine)
-}
 
 fn slots(wo: DVec3, wi: DVec3, parameters: [f64; 3]) -> Slots {
     let parameters = DVec3::from_array(parameters);
@@ -42,27 +26,6 @@ fn highlight(random: &mut Random, wo: DVec3) -> Slots {
     let lean = alpha * ratio(random, 1e-2, 10.0);
     let wi = mirrored(random, wo, lean);
     slots(wo, wi, [alpha, 0.0, 0.0])
-}
-
-/// Two directions of this angle.
-fn apart(random: &mut Random, wo: DVec3, angle: f64) -> DVec3 {
-    let across = wo.any_orthonormal_vector();
-    let (sin, cos) = (std::f64::consts::TAU * random.next()).sin_cos();
-    let side = cos * across + sin * wo.cross(across);
-    (angle.cos() * wo + angle.sin() * side).normalize()
-}
-
-/// A square of this side, at this distance from the origin in some direction above it, that faces it.
-fn square(random: &mut Random, toward: DVec3, distance: f64, side: f64) -> Slots {
-    let u = toward.any_orthonormal_vector();
-    let turn = std::f64::consts::TAU * random.next();
-    let u = 0.5 * side * (turn.cos() * u + turn.sin() * toward.cross(u));
-    let v = toward.cross(u);
-    [u + v, u - v, -u - v, v - u].map(|corner| (distance * toward + corner).as_vec3().extend(0.0).to_array())
-}
-
-const fn case(name: &'static str, make: fn(&mut Random) -> Slots, plain: f64) -> Case {
-    Case { name, make, plain }
 }
 
 pub(super) const DISTRIBUTION: &[Case] = &[
@@ -200,50 +163,3 @@ pub(super) const TANGENT: &[Case] = &[case(
     },
     0.5,
 )];
-
-pub(super) const FORM_FACTOR: &[Case] = &[
-    case(
-        "square of 1e-5 to .1 of its distance",
-        |random| {
-            // Clear of the horizon, at which neither usual form nor truth clips.
-            let cosine = 0.1 + 0.9 * random.next();
-            let toward = at_cosine(random, cosine);
-            let distance = ratio(random, 0.1, 1e3);
-            let side = distance * ratio(random, 1e-5, 0.1);
-            square(random, toward, distance, side)
-        },
-        1e-6,
-    ),
-    case(
-        "square of 10 to 10,000 times its distance, overhead",
-        |random| {
-            let distance = ratio(random, 0.1, 10.0);
-            let side = distance * ratio(random, 10.0, 1e4);
-            square(random, DVec3::Z, distance, side)
-        },
-        1e-9,
-    ),
-    case(
-        "wall of 2 × 1 that stands 1e-4 to 1 away",
-        |random| {
-            let away = ratio(random, 1e-4, 1.0);
-            let (sin, cos) = (std::f64::consts::TAU * random.next()).sin_cos();
-            let (out, along) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
-            let [a, b] = [along - away * out, -along - away * out];
-            [b, a, a + DVec3::Z, b + DVec3::Z].map(|corner| corner.as_vec3().extend(0.0).to_array())
-        },
-        1e-6,
-    ),
-    case(
-        "sliver, 10 to 10,000 times as long as wide, overhead",
-        |random| {
-            let (distance, aspect) = (ratio(random, 0.1, 10.0), ratio(random, 10.0, 1e4));
-            let turn = DVec3::X * (std::f64::consts::TAU * random.next()).cos();
-            let u = distance * turn.with_y((1.0 - turn.x * turn.x).sqrt());
-            let v = DVec3::Z.cross(u) / aspect;
-            [u + v, u - v, -u - v, v - u]
-                .map(|corner| (distance * DVec3::Z + corner).as_vec3().extend(0.0).to_array())
-        },
-        1e-6,
-    ),
-];
