@@ -19,8 +19,8 @@ fn strewn(count: usize) -> Vec<Vec3> {
 fn the_device_has_the_order_of_the_host() {
     let gpu = CheckedGpu::open();
     let random = strewn(65_537);
-    // A vector, a workgroup and a block of points, and one more or less of each.
-    let mut worlds: Vec<Vec<Vec3>> = [0, 1, 7, 9, 255, 256, 257, 2047, 2049, 65_537]
+    // A vector, a workgroup, a block and 32 blocks of points, and one more or less of each.
+    let mut worlds: Vec<Vec<Vec3>> = [0, 1, 7, 8, 9, 255, 256, 257, 2047, 2048, 2049, 65_536, 65_537]
         .into_iter()
         .map(|count: usize| random[..count].to_vec())
         .collect();
@@ -38,5 +38,18 @@ fn the_device_has_the_order_of_the_host() {
             assert_eq!(pass.fetch().unwrap(), want, "{} points", points.len());
         }
     }
+    // A few far points have a curve of their own on the host alone.
+    let mut points = random[..5000].to_vec();
+    points[17] = Vec3::splat(1e6);
+    let pass = OrderPass::new(&gpu, &points).unwrap();
+    pass.run().unwrap();
+    let (one_curve, two) = (pass.fetch().unwrap(), hilbert::order(points.iter().copied()));
+    assert_ne!(one_curve, two);
+    let sorted = |order: &[u32]| {
+        let mut sorted = order.to_vec();
+        sorted.sort_unstable();
+        sorted
+    };
+    assert_eq!(sorted(&one_curve), sorted(&two));
     gpu.finish();
 }

@@ -17,7 +17,6 @@ use crate::frame::{Frame, FrameInputs, FrameSettings, Timings};
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
 use crate::image::HdrImage;
-use crate::light_tree::LightTree;
 use crate::scene::Scene;
 use cpu_time::ProcessTime;
 use device::Orders;
@@ -160,8 +159,13 @@ impl Uploaded {
             Some(last) if last.lights == lights => (last.gpu_scene, last.truth),
             last => {
                 let gpu_scene = upload(device, scene, lights)?;
-                let truth =
-                    last.map_or_else(|| brute_force(device, &gpu_scene, scene), |last| Ok(last.truth))?;
+                let truth = match (last, lights) {
+                    (Some(last), _) => last.truth,
+                    (None, Lights::All(_)) => brute_force(device, &gpu_scene, scene)?,
+                    (None, Lights::Random(_)) => {
+                        brute_force(device, &upload(device, scene, Lights::All(Order::Hilbert))?, scene)?
+                    }
+                };
                 (gpu_scene, truth)
             }
         };
@@ -246,11 +250,12 @@ fn render(frame: &mut Frame, scene: &Scene) -> Result<Timings> {
 }
 
 fn tree_ms(lights: Lights, scene: &Scene) -> f64 {
-    let clock = ProcessTime::now();
-    let tree = match lights {
-        Lights::All(order) => order.tree(&scene.point_lights, Vec3::ZERO),
-        Lights::Random(count) => LightTree::new(&drawn(&scene.point_lights, count), Vec3::ZERO),
+    let (order, sample) = match lights {
+        Lights::All(order) => (order, None),
+        Lights::Random(count) => (Order::Hilbert, Some(drawn(&scene.point_lights, count))),
     };
+    let clock = ProcessTime::now();
+    let tree = order.tree(sample.as_ref().unwrap_or(&scene.point_lights), Vec3::ZERO);
     let taken = clock.elapsed();
     drop(tree);
     taken.as_secs_f64() * 1e3

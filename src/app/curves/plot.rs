@@ -69,6 +69,15 @@ pub(super) struct Label {
     pub(super) within: [i32; 2],
 }
 
+/// What the axis takes at a panel's left.
+const MARGIN: i32 = 80;
+
+/// From where to where labels of a panel may reach.
+pub(super) fn within<B: DrawingBackend>(panel: &DrawingArea<B, Shift>) -> [i32; 2] {
+    let left = panel.get_base_pixel().0;
+    [left + MARGIN, left + panel.dim_in_pixel().0 as i32]
+}
+
 /// Pixels of a letter, about, to keep labels apart.
 const LETTER: [i32; 2] = [8, 15];
 

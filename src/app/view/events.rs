@@ -53,19 +53,19 @@ impl Viewer<'_> {
 
     /// Nobody sees the window.
     pub(super) fn rests(&self) -> bool {
-        self.hidden || self.minimised
+        self.hidden || self.minimised.is_some()
     }
 
     /// When to draw though nothing happens.
     fn due(&mut self) -> Option<Instant> {
         self.look = self.loading.as_ref().map(|_| self.look.unwrap_or_else(|| Instant::now() + LOOK));
-        let back = self.minimised.then(|| Instant::now() + REST);
-        self.look.into_iter().chain(self.gui.due()).chain(back).min()
+        self.look.into_iter().chain(self.gui.due()).chain(self.minimised).min()
     }
 
     /// Draws because it is due.
     fn wake(&mut self) {
         self.look = None;
+        self.minimised = self.minimised.map(|_| Instant::now() + REST);
         self.gui.woken();
         self.redraw();
     }
@@ -87,8 +87,9 @@ impl Viewer<'_> {
             WindowEvent::CloseRequested => self.closing = true,
             WindowEvent::RedrawRequested => {
                 // X11 does not say it of itself.
-                self.minimised =
+                let minimised =
                     self.window.as_ref().is_some_and(|window| window.is_minimized() == Some(true));
+                self.minimised = minimised.then(|| Instant::now() + REST);
                 if !self.rests() {
                     return self.draw();
                 }

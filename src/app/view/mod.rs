@@ -116,7 +116,7 @@ fn open(options: &ViewOptions, size: [u32; 2], startup: Startup) -> Result<()> {
         pointer: Pointer::default(),
         gui: Gui::default(),
         hidden: false,
-        minimised: false,
+        minimised: None,
         moves: false,
         gathered: None,
         warned: false,
@@ -165,7 +165,8 @@ struct Viewer<'a> {
     gui: Gui,
     /// Nothing of the window is on screen.
     hidden: bool,
-    minimised: bool,
+    /// Minimised, and when to look next whether it still is.
+    minimised: Option<Instant>,
     /// The view moved when it was last drawn.
     moves: bool,
     /// A frame of gathered light that is not drawn yet.

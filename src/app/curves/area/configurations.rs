@@ -34,7 +34,7 @@ pub(super) enum Lights {
 }
 
 impl Lights {
-    /// Of the random numbers, with the model's: no two cells share theirs.
+    /// Of the random numbers, with the model's.
     fn seed(self, model: Model) -> u64 {
         let name = match self {
             Self::Any(shape) => shape.to_owned(),

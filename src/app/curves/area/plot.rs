@@ -1,6 +1,6 @@
 //! The plot: error over time, both logarithmic, one panel a band.
 
-use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges};
+use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges, within};
 use super::configurations::BANDS;
 use super::figures::Point;
 use super::tiers::Family;
@@ -23,9 +23,6 @@ const AXES: &str =
 /// Of times and errors, for their logarithms.
 const LEAST: f64 = 1e-9;
 
-/// What the axis takes at a panel's left.
-pub(super) const MARGIN: i32 = 80;
-
 /// The plot of a set of points.
 pub(super) struct AreaPlot<'a>(pub(super) &'a [Point]);
 
@@ -42,7 +39,6 @@ fn draw<B: DrawingBackend>(root: &DrawingArea<B, Shift>, points: &[Point]) -> Dr
     let summary: Vec<&Point> = points.iter().filter(|p| p.summary()).collect();
     let mut labels = Vec::new();
     let panels = root.split_evenly((1, BANDS.len()));
-    let width_of_panel = (SIZE.0 as usize / BANDS.len()) as i32;
     for ((band, alphas), panel) in BANDS.into_iter().zip(&panels) {
         let alphas: Vec<_> = alphas.iter().map(f64::to_string).collect();
         let at = |p: &Point| (p.ns.max(LEAST), p.error.max(LEAST));
@@ -67,8 +63,7 @@ fn draw<B: DrawingBackend>(root: &DrawingArea<B, Shift>, points: &[Point]) -> Dr
                     chart.draw_series([Circle::new(at(p), size + 3, color.stroke_width(1))])?;
                 }
                 let at = chart.plotting_area().map_coordinate(&at(p));
-                let panel = at.0 / width_of_panel * width_of_panel;
-                let within = [panel + MARGIN, panel + width_of_panel];
+                let within = within(panel);
                 labels.push(Label { at, text: p.tier.to_owned(), color, within });
             }
         }

@@ -1,9 +1,9 @@
 //! Estimators by the light's size: tables and a plot.
 
-use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges};
+use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges, within};
 use super::configurations::BANDS;
 use super::figures::Point;
-use super::plot::{FAMILIES, MARGIN};
+use super::plot::FAMILIES;
 use super::tiers::{Family, TIERS};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -21,11 +21,15 @@ fn of<'a>(points: &'a [Point], band: &'a str, tier: &'a str) -> impl Iterator<It
 }
 
 /// Error of as many samples of a family as take the time of `like`: the inverse root of their number from those that come
-/// nearest to it.
+/// nearest to it; `None` where that is not one.
 fn at_equal_time(points: &[Point], like: &Point, family: Family) -> Option<f64> {
-    let own = points.iter().filter(|p| p.family == family && p.band == like.band && p.share == like.share);
+    let same = |p: &&Point| p.family == family && p.band == like.band && p.share == like.share;
+    // Differences of times: on a busy machine, of the shortest nothing is left.
+    let own = points.iter().filter(same).filter(|p| p.ns > 0.0 && like.ns > 0.0);
     let apart = |p: &&Point| (p.ns / like.ns).ln().abs();
-    own.min_by(|a, b| apart(a).total_cmp(&apart(b))).map(|p| p.error * (p.ns / like.ns).sqrt())
+    let nearest = own.min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+    let count = TIERS.iter().find(|tier| tier.name == nearest.tier)?.points;
+    (f64::from(count) * like.ns >= nearest.ns).then(|| nearest.error * (nearest.ns / like.ns).sqrt())
 }
 
 /// The page's section.
@@ -100,8 +104,7 @@ fn draw_panel<B: DrawingBackend>(
     let [share, error] = ranges(lines.iter().flat_map(|(_, _, line)| line.iter().copied()), LEAST);
     // Room for the labels.
     let mut chart = chart(panel, band, [share.start..30.0 * share.end, error], AXES)?;
-    let left = panel.get_base_pixel().0;
-    let within = [left + MARGIN, left + panel.dim_in_pixel().0 as i32];
+    let within = within(panel);
     let mut labels = Vec::new();
     for (name, family, line) in lines {
         let color = FAMILIES.iter().find(|row| row.0 == family).map_or(BLACK, |row| row.1);

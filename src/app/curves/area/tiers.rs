@@ -54,7 +54,7 @@ impl Family {
 pub(super) struct Tier {
     pub(super) name: &'static str,
     pub(super) family: Family,
-    points: u32,
+    pub(super) points: u32,
 }
 
 const fn tier(name: &'static str, family: Family, points: u32) -> Tier {

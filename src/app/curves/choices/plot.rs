@@ -1,6 +1,6 @@
 //! The plot: error of tables over their bytes, both logarithmic, a panel a layer.
 
-use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges};
+use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges, within};
 use super::tables::Stored;
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -12,8 +12,6 @@ const LINE: RGBColor = RGBColor(30, 90, 200);
 const OWN_FITS: RGBColor = RGBColor(200, 30, 30);
 /// Of errors.
 const LEAST: f64 = 1e-6;
-/// What the axis takes at a panel's left.
-const MARGIN: i32 = 80;
 const AXES: &str = "across: bytes of a layer; up: mean error; line: own fits; ringed: the default";
 
 impl Plot for ChoicesPlot<'_> {
@@ -49,8 +47,7 @@ fn draw_panel<B: DrawingBackend>(
         let ends = [(bytes.start, mean), (largest, mean)];
         chart.draw_series([PathElement::new(ends, OWN_FITS.stroke_width(1))])?;
     }
-    let left = panel.get_base_pixel().0;
-    let within = [left + MARGIN, left + panel.dim_in_pixel().0 as i32];
+    let within = within(panel);
     let mut labels = Vec::new();
     for (table, bytes) in sized() {
         let at = (bytes, table.mean.max(LEAST));

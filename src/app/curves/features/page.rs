@@ -90,8 +90,8 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
         );
     }
     text.push_str(if device.pipeline_statistics {
-        "\nThis driver tells the instructions and registers of pipelines (`VK_KHR_pipeline_executable_properties`); nothing asks \
-         it yet.\n"
+        "\nThis driver has `VK_KHR_pipeline_executable_properties`, which may tell the instructions and registers of pipelines; \
+         they are not read here.\n"
     } else {
         "\nHow many instructions or registers a pipeline takes, this driver does not tell: it is without \
          `VK_KHR_pipeline_executable_properties`.\n"

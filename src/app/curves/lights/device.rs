@@ -65,7 +65,7 @@ impl Orders {
         };
         format!(
             "The Hilbert order of {lights} lights takes {:.1} CPU ms on the host and {:.1} on the device ({device_ms}; keys \
-             and sort of positions that are there, without bounds, boxes and lights): {device_share_of_host:.2} times the \
+             and sort of positions that are there, without bounds, boxes and lights, by shaders laid out for CPUs): {device_share_of_host:.2} times the \
              host's. {ships}\n",
             host_cpu_ms.median, device_cpu_ms.median
         )

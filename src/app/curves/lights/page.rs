@@ -84,8 +84,8 @@ pub(super) fn page(device: &DeviceInfo, figures: &Figures) -> String {
          ![Error over CPU time for each knob, and time over the number of lights](lights.png)\n\n\
          The scene is `scenes/million.toml`, a hall with sixty spheres of five BSDFs, with as many of its lights as each \
          table says; {}. Times are medians of whole frames, CPU time of the process; errors are relative to the picture \
-         with every light on every pixel, of the same program. *At random*: lights drawn by their intensity in the \
-         place of all, the same for all pixels, which is what sampling without a tree comes to in the time.\n",
+         with every light on every pixel, of the same program. *At random*: one draw of lights by their \
+         intensity, the same for all pixels, in the place of all.\n",
         device.name, device.driver, device.api, figures.extent
     );
     for sweep in SWEEPS {

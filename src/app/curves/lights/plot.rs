@@ -1,7 +1,7 @@
 //! The plot: error over time for the two knobs, time over the number of lights; all logarithmic. The order of the lights and
 //! the shape of clusters have no error to plot.
 
-use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges};
+use super::super::plot::{Drawn, Label, Plot, chart, draw_labels, ranges, within};
 use super::Point;
 use super::sweeps::{GROWTH, SWEEPS};
 use plotters::coord::Shift;
@@ -42,9 +42,6 @@ impl Plot for LightsPlot<'_> {
     }
 }
 
-/// What the axis takes at a panel's left.
-const MARGIN: i32 = 80;
-
 /// Points of the knob and of random sampling, each kind joined by a line, and each one's label. What ships has a ring.
 fn draw_panel<B: DrawingBackend>(
     panel: &DrawingArea<B, Shift>,
@@ -64,8 +61,7 @@ fn draw_panel<B: DrawingBackend>(
         let default = own().filter(|(_, p)| p.default);
         chart.draw_series(default.map(|(at, _)| Circle::new(*at, 9, color.stroke_width(2))))?;
     }
-    let left = panel.get_base_pixel().0;
-    let within = [left + MARGIN, left + panel.dim_in_pixel().0 as i32];
+    let within = within(panel);
     let label = |(at, p): &((f64, f64), &Point)| Label {
         at: chart.plotting_area().map_coordinate(at),
         text: p.label.clone(),
