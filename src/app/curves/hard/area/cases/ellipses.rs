@@ -20,18 +20,18 @@ fn facing(random: &mut Random, toward: DVec3) -> DVec3 {
     lean.x * x + lean.y * y + lean.z * toward
 }
 
+/// In some direction, with a radius of between these shares of its distance.
+fn small(random: &mut Random, [least, most]: [f64; 2]) -> Slots {
+    let toward = high(random);
+    let distance = ratio(random, 0.1, 1e3);
+    let normal = facing(random, toward);
+    let radius = distance * ratio(random, least, most);
+    disk(random, distance * toward, normal, radius)
+}
+
 pub(in super::super) const ELLIPSE: &[Case] = &[
-    relative(
-        "radius 1e-5 to .1 of its distance",
-        |random| {
-            let toward = high(random);
-            let distance = ratio(random, 0.1, 1e3);
-            let normal = facing(random, toward);
-            let radius = distance * ratio(random, 1e-5, 0.1);
-            disk(random, distance * toward, normal, radius)
-        },
-        1e-9,
-    ),
+    relative("radius 1e-3 to .1 of its distance", |random| small(random, [1e-3, 0.1]), 1e-9),
+    relative("radius 1e-5 to 1e-3 of its distance", |random| small(random, [1e-5, 1e-3]), 1e-9),
     relative(
         "radius 10 to 10,000 times its distance, overhead",
         |random| {
