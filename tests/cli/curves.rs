@@ -176,9 +176,9 @@ fn hard_cases() {
     let mut formulas: Vec<&str> = points.iter().map(|p| p["formula"].as_str().unwrap()).collect();
     formulas.dedup();
     assert_eq!(formulas.len(), 19, "{formulas:?}");
-    // Vertices on both sides of a thin line round to more than its width where an end is far beside its distance: then the
-    // relative error may be anything, known, and the absolute one is held to a third of the 3e-4 that such a line gives at
-    // most; end-on to the 1e-7 of a rounding of what surrounds it.
+    // Where an end of a thin line is far along its axis, vertices on both sides of it round to more than its width: the
+    // relative error may be anything, which is known and shown, and the absolute one is held to a third of the 3e-4 that
+    // such a line gives at most, end-on to a tenth of the 1e-6.
     let thin = [
         ("radius 3e-4 of its distance, 2 long, 1e-3 to .2 up", 1e-4),
         ("end-on: from 1–10 to 20–100 away, its axis .1 aside", 1e-7),
