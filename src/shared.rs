@@ -314,8 +314,6 @@ shared! {
         HARD_FURNACE = 17;
         /// Part of the view in the surface, along the plane of incidence.
         HARD_INCIDENCE = 18;
-        /// Coordinate of the tables of transformed cosines.
-        HARD_TABLE = 19;
         /// Specialisation constants of the probe of area lights' estimators: which, `TIER_*`.
         SPEC_TIER = 40;
         /// How many points it takes; of `TIER_SHIPPED` the `light_error` in thousandths.

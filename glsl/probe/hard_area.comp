@@ -43,8 +43,7 @@ vec2 of_row(HardProbeRow r) {
     if (HARD_FORMULA == HARD_ELLIPSE) return vec2(usual_ellipse(r), ellipse_form_factor(r.a.xyz, r.b.xyz, r.c.xyz));
     if (HARD_FORMULA == HARD_LINE) return vec2(usual_line(r), shipped_line(r));
     if (HARD_FORMULA == HARD_FURNACE) return of_furnace(r);
-    if (HARD_FORMULA == HARD_INCIDENCE) return vec2(usual_incidence(r), shipped_incidence(r));
-    return vec2(usual_coordinate(r), view_coordinate(dot(r.a.xyz, r.b.xyz)));
+    return vec2(usual_incidence(r), shipped_incidence(r));
 }
 
 void main() {

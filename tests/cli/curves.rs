@@ -187,22 +187,31 @@ fn hard_cases() {
     };
     let mut formulas: Vec<&str> = points.iter().map(|p| p["formula"].as_str().unwrap()).collect();
     formulas.dedup();
-    assert!(formulas.len() >= 20, "{formulas:?}");
+    assert_eq!(formulas.len(), 19, "{formulas:?}");
+    // Where an end of a thin line is far along its axis, vertices on both sides of it round to more than its width: the
+    // relative error may be anything, which is known and shown, and the absolute one is held to a third of the 3e-4 that
+    // such a line gives at most, end-on to a tenth of the 1e-6.
+    let thin = [
+        ("radius 3e-4 of its distance, 2 long, 1e-3 to .2 up", 1e-4),
+        ("end-on: from 1–10 to 20–100 away, its axis .1 aside", 1e-7),
+        ("radius 3e-4 of its distance, across the horizon", 1e-4),
+    ];
+    let thin_line = |point: &serde_json::Value| {
+        let known =
+            |case: &&(&str, f64)| point["formula"] == "form factor of a line" && point["case"] == case.0;
+        thin.iter().find(known).map(|case| case.1)
+    };
+    assert_eq!(points.iter().filter_map(thin_line).count(), thin.len());
     for point in points {
-        // What ships is finite everywhere and right to what the contract grants form factors, and √(1 − n·wo) to the root of a
-        // rounding. Thin lines whose vertices round to more than their width lose a third of the 3e-4 that they give at most:
-        // known, and no worse.
-        let most = match (point["absolute"].as_bool().unwrap(), point["formula"].as_str().unwrap()) {
-            (false, _) => 2e-3,
-            (true, "form factor of a line") => 1e-4,
-            (true, "the tables' coordinate") => 5e-4,
-            (true, _) => 2e-6,
-        };
+        // What ships is finite everywhere and right to what the contract grants form factors.
+        let most = if point["absolute"].as_bool().unwrap() { 2e-6 } else { 2e-3 };
         for shipped in
             ["shipped_cpu", "shipped_device"].map(|key| &point[key]).into_iter().filter(|v| !v.is_null())
         {
             let (error, not_finite) = worst(shipped);
-            assert!(not_finite == 0 && error <= most, "{point}");
+            let right = thin_line(point)
+                .map_or(error <= most, |most| shipped["worst_absolute"].as_f64().unwrap() <= most);
+            assert!(not_finite == 0 && right, "{point}");
         }
     }
     for formula in formulas {

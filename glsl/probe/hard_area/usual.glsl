@@ -1,11 +1,17 @@
 // How polygons, lines and frames of transformed cosines are usually written, after Heitz et al. 2016 and Heitz and
-// Hill 2017.
+// Hill 2017, by the same steps as the shaders that they published.
 #ifndef PROBE_HARD_AREA_USUAL_GLSL
 #define PROBE_HARD_AREA_USUAL_GLSL
 
 #include "probe/hard_area/shapes.glsl"
 
 const uint CLIPPED_VERTICES = 9u;
+
+// An angle over its sine that is 1 up to .001, and where acos has no number.
+float usual_edge(vec3 u, vec3 v) {
+    float angle = acos(dot(u, v));
+    return cross(u, v).z * (angle > 0.001 ? angle / sin(angle) : 1.0);
+}
 
 // Directions of the vertices above the horizon, and where edges cross it; then a sum over unit vectors.
 float usual_polygon(Ring ring) {
@@ -18,8 +24,7 @@ float usual_polygon(Ring ring) {
     }
     float sum = 0.0;
     for (uint i = 0u; i < count; ++i) {
-        vec3 u = above[i], v = above[i + 1u < count ? i + 1u : 0u];
-        sum += acos(dot(u, v)) * normalize(cross(u, v)).z;
+        sum += usual_edge(above[i], above[i + 1u < count ? i + 1u : 0u]);
     }
     return -0.5 * INV_PI * sum;
 }
@@ -55,7 +60,5 @@ float usual_incidence(HardProbeRow r) {
     vec3 wo = r.a.xyz, n = r.b.xyz;
     return dot(wo, normalize(wo - n * dot(wo, n)));
 }
-
-float usual_coordinate(HardProbeRow r) { return sqrt(2.0) * sin(0.5 * acos(dot(r.a.xyz, r.b.xyz))); }
 
 #endif

@@ -34,7 +34,7 @@ pub(super) const FORMULAS: &[Formula] = &[
         HARD_FORM_FACTOR,
         "form factor of a polygon",
         [
-            "clipped, then Σ acos(u·v) (u × v).z/|u × v|",
+            "clipped, then Σ (u × v).z θ/sin θ, θ = acos(u·v), 1 up to .001",
             "angles by their sines, against an anchor; clipped on the way"
         ],
         0,
@@ -64,7 +64,7 @@ pub(super) const FORMULAS: &[Formula] = &[
         HARD_ELLIPSE,
         "form factor of a disk",
         [
-            "roots of its cone's cubic by an angle; at the horizon a sphere",
+            "its cone's cubic by Blinn's two roots and the third; at the horizon a sphere",
             "one root by Laguerre's method; the arc above the horizon"
         ],
         0,
@@ -98,14 +98,5 @@ pub(super) const FORMULAS: &[Formula] = &[
         VIEWS,
         incidence,
         |&[wo, n, ..]| wo.truncate().cross(n.truncate()).length()
-    ),
-    formula!(
-        HARD_TABLE,
-        "the tables' coordinate",
-        ["√2 sin(½ acos(n·wo))", "√(1 − n·wo), clamped"],
-        2,
-        VIEWS,
-        coordinate,
-        |&[wo, n, ..]| 0.5_f64.sqrt() * (wo - n).length()
     ),
 ];

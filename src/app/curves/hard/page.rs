@@ -56,7 +56,7 @@ pub(super) fn summary(points: &[Point], pictures: &[Picture]) -> String {
 /// Worst error or ratio, and how many values are not finite.
 fn of_picture(p: &Picture) -> String {
     let worst = p.worst.unwrap_or(p.largest[0]);
-    cell(&Verdict { worst, mean: 0.0, not_finite: p.not_finite }, false)
+    cell(&Verdict { worst, not_finite: p.not_finite, ..Verdict::default() }, false)
 }
 
 pub(super) fn page(device: &DeviceInfo, (points, pictures): (&[Point], &[Picture]), quick: bool) -> String {
@@ -74,9 +74,9 @@ pub(super) fn page(device: &DeviceInfo, (points, pictures): (&[Point], &[Picture
          are rounded to float32, and the truth is that of their unit vectors; of the two D, which need the half vector's direction \
          only, that of the rounded ones. Of form factors it is the contour above the horizon, arcs by adaptive \
          quadrature. The usual disk is by intent a sphere where that reaches below the horizon, and the usual line has no width: \
-         a cylinder has .27 of radius over distance less. What ships for lines has vertices on either side, which round to 6e-8 \
-         of the distance to its ends: of a line that is hardly wider it keeps few digits, and there the usual form is the better \
-         one.\n\n\
+         a level cylinder of radius R and half length l, d above the point, has l d R²/(d² + l²)² more, by the nearer halves of \
+         its rims, which bulge beyond the line's ends. What ships for lines has vertices on either side, sums along and across \
+         the axis that are rounded together: how much of a thin line's width that leaves is what its rows say.\n\n\
          | formula | inputs | usual, processor | shipped, processor | usual, device | shipped, device |\n\
          | --- | --- | --- | --- | --- | --- |\n",
         device.name, device.driver, device.api

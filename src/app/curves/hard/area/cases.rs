@@ -3,9 +3,9 @@
 mod ellipses;
 mod polygons;
 
-use super::super::formulas::{Case, Slots, absolute, relative};
+use super::super::formulas::{Case, Slots, absolute, fitted};
 use super::super::inputs::{apart, at_cosine, ratio};
-use crate::ltc::{Layer, Parameters, tables};
+use crate::ltc::{Layer, Parameters, Tables};
 use crate::reference::sampler::Random;
 use glam::{DVec3, Vec4};
 
@@ -36,31 +36,29 @@ fn axes(random: &mut Random, normal: DVec3, length: f64) -> [DVec3; 2] {
     [u, normal.cross(u)]
 }
 
-fn lobe(random: &mut Random, cosine: f64, r: f64) -> Slots {
+/// Of metal.
+fn lobe(random: &mut Random, tables: &Tables, [cosine, r]: [f64; 2]) -> Slots {
     let wo = at_cosine(random, cosine).as_vec3();
-    // Without tables nothing is tried, and the test of the table fails.
-    let shape = tables().map_or([0.0; 4], |all| {
-        all.layer(Layer::Metal).shape_at(Parameters { r, cos: f64::from(wo.z).min(1.0) })
-    });
-    let shape = shape.map(|number| number as f32);
+    let at = Parameters { r, cos: f64::from(wo.z).min(1.0) };
+    let shape = tables.layer(Layer::Metal).shape_at(at).map(|number| number as f32);
     let twice_alpha = Vec4::X * (2.0 * r * r) as f32;
     [wo.extend(0.0).to_array(), shape, twice_alpha.to_array(), [0.0; 4]]
 }
 
 pub(super) const FURNACE: &[Case] = &[
-    relative(
+    fitted(
         "r .03 to 1, n·wo .02 to 1",
-        |random| {
-            let (cosine, r) = (ratio(random, 0.02, 1.0), ratio(random, 0.03, 1.0));
-            lobe(random, cosine, r)
+        |random, tables| {
+            let at = [ratio(random, 0.02, 1.0), ratio(random, 0.03, 1.0)];
+            lobe(random, tables, at)
         },
         1e-6,
     ),
-    relative(
+    fitted(
         "r .03 to 1, wo along the normal",
-        |random| {
+        |random, tables| {
             let r = ratio(random, 0.03, 1.0);
-            lobe(random, 1.0, r)
+            lobe(random, tables, [1.0, r])
         },
         f64::INFINITY,
     ),

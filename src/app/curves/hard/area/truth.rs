@@ -149,12 +149,14 @@ pub(super) fn furnace([wo, shape, stretch]: [DVec4; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     fn near(got: f64, want: f64, most: f64) {
         assert!((got - want).abs() <= most, "{got} for {want}");
     }
 
-    /// T1, T4 and T5, and what of T4's wall stands in the ground.
+    /// A unit square 1 over the point by its corner, a wall of 2 × 1 that stands 1 away, ever deeper in the ground, and the
+    /// octant's triangle: ¼.
     #[test]
     fn polygons() {
         let ring = |points: &[[f64; 3]]| polygon(&points.iter().map(|&p| p.into()).collect::<Vec<_>>());
@@ -166,7 +168,8 @@ mod tests {
         near(ring(&[[0., 0., 1.], [0., 1., 0.], [1., 0., 0.]]), 0.25, 1e-12);
     }
 
-    /// T7 and T8: a sphere of R/d = .9 on the horizon covers what its disk does.
+    /// A level disk 1 up: ½ for a unit disk overhead, R²/(R² + 1) for others; then aside. And a sphere of R/d = .9 on the
+    /// horizon, which covers what its disk does.
     #[test]
     fn disks() {
         let disk = |aside: f64, r: f64| ellipse([DVec3::new(aside, 0., 1.), DVec3::X * r, DVec3::Y * r]);
@@ -184,15 +187,22 @@ mod tests {
         near(ellipse([DVec3::NEG_Z, DVec3::X, DVec3::Y]), 0.0, 0.0);
     }
 
-    /// T9: as the radius falls, that of a line; from inside nothing.
+    /// Level ones of half length l and d up: a line's form factor, and l d R²/(d² + l²)² for the nearer halves of the rims,
+    /// which bulge beyond its ends by l R cos ψ/d at R sin ψ aside. From inside nothing, nor without length.
     #[test]
     fn cylinders() {
-        let ends = [DVec3::new(-1., 0., 1.), DVec3::new(1., 0., 1.)];
-        for radius in [1e-2, 1e-4, 1e-6] {
-            let want = 0.818_309_886 * radius;
-            near(cylinder(ends, radius), want, 0.35 * radius * want + 1e-9 * want);
+        let ends = |l: f64, d: f64| [DVec3::new(-l, 0., d), DVec3::new(l, 0., d)];
+        for (l, d) in [(1.0, 1.0), (1.0, 0.5), (1.0, 0.2), (0.3, 1.0)] {
+            for radius in [1e-2 * d, 1e-3 * d, 1e-4 * d] {
+                let ends2: f64 = d * d + l * l;
+                let line = 2.0 / PI * radius * (l / ends2 + (l / d).atan() / d);
+                let bulge = l * d * radius * radius / (ends2 * ends2);
+                // Terms of the next order.
+                let rest = (radius / d).powi(2) * line;
+                near(cylinder(ends(l, d), radius), line + bulge, 2.0 * rest);
+            }
         }
-        near(cylinder(ends, 1.1), 0.0, 0.0);
-        near(cylinder([ends[0]; 2], 0.1), 0.0, 0.0);
+        near(cylinder(ends(1.0, 1.0), 1.1), 0.0, 0.0);
+        near(cylinder([DVec3::Z; 2], 0.1), 0.0, 0.0);
     }
 }

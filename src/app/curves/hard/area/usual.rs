@@ -1,5 +1,6 @@
-//! Area lights as they are usually written, in single and in double precision: Heitz et al. 2016, Heitz and Hill 2017.
-//! glsl/probe/hard_area/usual.glsl and usual_ellipse.glsl are the same on the device.
+//! Area lights as they are usually written, in single and in double precision: Heitz et al. 2016, Heitz and Hill 2017, by
+//! the same steps as the shaders that they published. glsl/probe/hard_area/usual.glsl and usual_ellipse.glsl are the same
+//! on the device.
 
 use super::shapes::shapes;
 
@@ -24,6 +25,12 @@ macro_rules! in_both_precisions {
 }
 
 in_both_precisions! {
+    /// An angle over its sine that is 1 up to .001, and where acos has no number.
+    fn edge(u: Vector, v: Vector) -> Real {
+        let angle = u.dot(v).acos();
+        u.cross(v).z * if angle > 0.001 { angle / angle.sin() } else { 1.0 }
+    }
+
     fn polygon(ring: &[Vector]) -> Real {
         let next = ring.iter().cycle().skip(1);
         let mut above = Vec::new();
@@ -36,8 +43,7 @@ in_both_precisions! {
             }
         }
         let next = above.iter().cycle().skip(1);
-        let term = |(u, v): (&Vector, &Vector)| u.dot(*v).acos() * u.cross(*v).normalize().z;
-        -0.5 / PI * above.iter().zip(next).map(term).sum::<Real>()
+        -0.5 / PI * above.iter().zip(next).map(|(&u, &v)| edge(u, v)).sum::<Real>()
     }
 
     pub(in super::super) fn form_factor(slots: &[Slot; 4]) -> Real {
@@ -92,18 +98,26 @@ in_both_precisions! {
         wo.dot((wo - n * wo.dot(n)).normalize())
     }
 
-    pub(in super::super) fn coordinate(&[wo, n, _, _]: &[Slot; 4]) -> Real {
-        let two: Real = 2.0;
-        two.sqrt() * (0.5 * wo.truncate().dot(n.truncate()).acos()).sin()
+    /// The largest and the smallest root of y³ + 3 p y + q, from p, −q and the root of −4 p³ − q²: all three are real.
+    fn outer_roots(p: Real, lead: Real, sine: Real) -> [Real; 2] {
+        let angle = sine.atan2(lead) / 3.0;
+        [angle, angle + 2.0 * PI / 3.0].map(|angle| 2.0 * (-p).sqrt() * angle.cos())
     }
 
-    /// Of x³ + c[2] x² + c[1] x + c[0], from the largest down.
-    fn roots(c: [Real; 3]) -> [Real; 3] {
-        let p = (c[2] * c[2] - 3.0 * c[1]) / 9.0;
-        let h = (9.0 * c[2] * c[1] - 27.0 * c[0] - 2.0 * c[2] * c[2] * c[2]) / 54.0;
-        let angle = (p * p * p - h * h).sqrt().atan2(h) / 3.0;
-        let third = 2.0 * PI / 3.0;
-        [angle, angle - third, angle + third].map(|angle| 2.0 * p.sqrt() * angle.cos() - c[2] / 3.0)
+    /// Of x³ + 3 b x² + 3 c x + d, from the largest down. Blinn 2007, «How to Solve a Cubic Equation», part 5: the root
+    /// farthest from 0 by the equation, the nearest by its reverse, which is for −d/x, and the third from both: by one
+    /// angle for all three the small ones would be differences of large numbers.
+    fn roots([b, c, d]: [Real; 3]) -> [Real; 3] {
+        let hessian = [c - b * b, d - b * c, b * d - c * c];
+        let sine = (4.0 * hessian[0] * hessian[2] - hessian[1] * hessian[1]).sqrt();
+        let [high, low] = outer_roots(hessian[0], 2.0 * b * hessian[0] - hessian[1], sine);
+        let far = if high + low > 2.0 * b { high } else { low } - b;
+        let [high, low] = outer_roots(hessian[2], d * hessian[1] - 2.0 * c * hessian[2], d * sine);
+        let near = -d / (if high + low < 2.0 * c { high } else { low } + c);
+        let (sum, product) = (far + near, far * near);
+        let mut all = [far, -(c * sum + b * product) / (c + b * sum), near];
+        all.sort_by(|x, y| y.total_cmp(x));
+        all
     }
 
     /// Lagarde and de Rousiers 2014, of a sphere of sin² `size` at this cosine.
@@ -129,7 +143,7 @@ in_both_precisions! {
         let product = inverse2[0] * inverse2[1];
         let stretch = inverse2[0] * (1.0 + at[0] * at[0]) + inverse2[1] * (1.0 + at[1] * at[1]);
         let middle = product * (1.0 + at[0] * at[0] + at[1] * at[1]) - inverse2[0] - inverse2[1];
-        let [first, second, last] = roots([product, middle, 1.0 - stretch]);
+        let [first, second, last] = roots([(1.0 - stretch) / 3.0, middle / 3.0, product]);
         let lean = [0, 1].map(|i| inverse2[i] * at[i] / (inverse2[i] - last));
         let axis = (lean[0] * x + lean[1] * y + z).normalize();
         let size2 = [-last / first, -last / second];

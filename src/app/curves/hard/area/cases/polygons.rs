@@ -1,4 +1,5 @@
-//! Polygons: T10, T11, T13, T15, T17 and T18 of the list of hard cases in the project's notes.
+//! Polygons: small, far, close, thin, across, on and below the horizon, edge-on, about the point; in parts, with a notch,
+//! with a hole.
 
 use super::super::super::formulas::{Case, Slots, absolute, relative};
 use super::super::super::inputs::ratio;
@@ -26,7 +27,7 @@ fn lattice(random: &mut Random) -> DVec3 {
     DVec3::new(whole(random), whole(random), whole(random))
 }
 
-/// Center and half axes of eighths, their plane no less than .1 from the point: no edge turns about it, and quarters meet.
+/// Center and half axes of sixteenths, their plane no less than .1 from the point: no edge turns about it, and quarters meet.
 fn clear(random: &mut Random) -> [DVec3; 3] {
     loop {
         let [center, u, v] = [0; 3].map(|_| (lattice(random) + lattice(random) / 8.0) / 2.0);
@@ -116,7 +117,7 @@ pub(in super::super) const FORM_FACTOR: &[Case] = &[
         "0 to 1e-3 over the point: inside, edge or corner",
         |random| {
             let height = if random.next() < 0.5 { 0.0 } else { ratio(random, 1e-12, 1e-3) };
-            // Eighths of a half axis, up to the outline.
+            // Quarters of a half axis, up to the outline.
             let [x, y] = [0; 2].map(|_| whole(random) / 4.0);
             parallelogram(DVec3::new(x, y, height), [DVec3::X, DVec3::NEG_Y])
         },
