@@ -477,7 +477,7 @@ shared! {
             GATHER_WORDS_B = 1: Sampled in Compute;
             /// Words 8 … 11.
             GATHER_WORDS_C = 2: Sampled in Compute;
-            /// [`VirtualNode`](super::VirtualNode)s and [`VirtualLight`](super::VirtualLight)s, two texels each.
+            /// [`VirtualPair`](super::VirtualPair)s, four texels each, and [`VirtualLight`](super::VirtualLight)s, two.
             GATHER_LIGHTS = 3: Sampled in Compute;
             /// What `FRAME_GATHERED` reads.
             GATHER_SUMS = 4: StorageImage in Compute;
@@ -813,18 +813,28 @@ shared! {
             /// Bounces before it, 0 is emission; of a point light the bits of 1/range², 0 without a range.
             extra: uint;
         }
-        /// A node of the tree over virtual lights, a complete binary heap: children of node i are 2i and 2i + 1.
-        VirtualNode {
-            /// Lower corner of the lights' positions.
-            lower: vec3;
-            /// Sum of the lights' mean channels; 0 where there is no light.
-            power: float;
+        /// Both children of a node of the tree over virtual lights, left and right. Nodes stand in the order of a walk that
+        /// goes left first: behind node i are the `left_count` − 1 nodes of its left child, then those of its right one.
+        VirtualPair {
+            /// Lower corner of the left lights' positions.
+            left_lower: vec3;
+            /// Lights of the left child.
+            left_count: uint;
             /// Upper corner.
-            upper: vec3;
+            left_upper: vec3;
             /// Cone of the normals: its axis octahedral, x and y of 12 bits with a sign each, in 2047ths; above them the
             /// cosine of the half angle in 255ths, rounded down; 0 is the whole sphere. Of point lights the bits of
             /// their largest range, infinite without one.
-            cone: uint;
+            left_cone: uint;
+            /// Lower corner of the right lights' positions.
+            right_lower: vec3;
+            /// Sums of the lights' mean channels, the upper halves of two floats: left | right << 16. 0 only where there is
+            /// no light.
+            powers: uint;
+            /// Upper corner.
+            right_upper: vec3;
+            /// As the left one's.
+            right_cone: uint;
         }
         /// An area light. Vectors that a kind does not have are 0; first vertices and points are those of the texture.
         AreaRecord {

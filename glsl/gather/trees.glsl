@@ -36,13 +36,12 @@ float cosine_in_cone(float cos_angle, float cos_half, float cos_widening) {
     return cos_angle * cos_wide + sqrt(max(1.0 - sqr(cos_angle), 0.0)) * sin_wide;
 }
 
-// About what a node lights a place with, and 0 only where it lights it with nothing.
-float importance(Lit lit, uint node, bool with_normals) {
-    uvec4 a = gathered_texel(2u * node);
-    uvec4 b = gathered_texel(2u * node + 1u);
-    float power = uintBitsToFloat(a.w);
-    vec3 lower = uintBitsToFloat(a.xyz);
-    vec3 upper = uintBitsToFloat(b.xyz);
+// Of a node's squared radius: how near its lights are, as far as that counts, to a place among them. In a ball around the place
+// the mean of 1/d² is 3 over the squared radius.
+const float INSIDE = 0.25;
+
+// About what a node lights a place with, and 0 only where it lights it with nothing. Its box, and the cone or range.
+float importance(Lit lit, vec3 lower, vec3 upper, uint word, float power, bool with_normals) {
     vec3 extent = 0.5 * (upper - lower) + lit.extent;
     vec3 offset = 0.5 * (lower + upper) - lit.center;
     float d2 = dot(offset, offset);
@@ -56,16 +55,16 @@ float importance(Lit lit, uint node, bool with_normals) {
         geometry = d2 <= r2 ? 1.0 : max(tilted, 0.0);
     }
     if (with_normals) {
-        Cone cone = unpack_cone(b.w);
+        Cone cone = unpack_cone(word);
         float facing = cosine_in_cone(-dot(cone.axis, offset) * inverse, cone.cosine, cos_widening);
         geometry *= d2 <= r2 ? 1.0 : max(facing, 0.0);
     } else {
         // Out of range of all.
         vec3 outside = max(abs(offset) - extent, 0.0);
-        float range = uintBitsToFloat(b.w);
+        float range = uintBitsToFloat(word);
         geometry *= dot(outside, outside) < sqr(range) ? 1.0 : 0.0;
     }
-    return power * min(geometry * sqr(inverse), lit.bound);
+    return power * min(geometry / max(max(d2, INSIDE * r2), 1e-24), lit.bound);
 }
 
 // A light drawn from a tree by a number of [0, 1): its index, and the probability that it was it; 0 where there is none.
@@ -74,30 +73,41 @@ struct Drawn {
     float probability;
 };
 
+// A tree is its first texel and its lights.
 Drawn draw_light(uvec2 tree, Lit lit, float u, uint seed, bool with_normals) {
-    uint node = 1u;
+    uint pair = 0u;
+    uint first = 0u;
+    uint count = tree.y;
     float probability = tree.y > 0u ? 1.0 : 0.0;
     uint level = 0u;
-    while (node < tree.y && probability > 0.0) {
-        node *= 2u;
-        float left = importance(lit, tree.x / 2u + node, with_normals);
-        float right = importance(lit, tree.x / 2u + node + 1u, with_normals);
+    while (count > 1u && probability > 0.0) {
+        uint texel = tree.x + 4u * pair;
+        uvec4 a = gathered_texel(texel);
+        uvec4 b = gathered_texel(texel + 1u);
+        uvec4 c = gathered_texel(texel + 2u);
+        uvec4 d = gathered_texel(texel + 3u);
+        vec2 powers = uintBitsToFloat(uvec2(c.w << 16, c.w & 0xffff0000u));
+        float left = importance(lit, uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), b.w, powers.x, with_normals);
+        float right = importance(lit, uintBitsToFloat(c.xyz), uintBitsToFloat(d.xyz), d.w, powers.y, with_normals);
         float sum = left + right;
         float share = sum > 0.0 ? left / sum : 0.0;
         bool goes_right = u >= share;
         float taken = goes_right ? 1.0 - share : share;
         u = clamp((goes_right ? u - share : u) / max(taken, 1e-30), 0.0, 0.99999994);
         probability *= sum > 0.0 ? taken : 0.0;
-        node += goes_right ? 1u : 0u;
+        pair += goes_right ? a.w : 1u;
+        first += goes_right ? a.w : 0u;
+        count = goes_right ? count - a.w : a.w;
         // Each choice uses up bits of the number: new ones from below.
         ++level;
         if ((level & 7u) == 0u) u = (floor(u * 256.0) + unit(hash(seed ^ level))) * (1.0 / 256.0);
     }
-    return Drawn(max(node, tree.y) - tree.y, probability);
+    return Drawn(first, probability);
 }
 
 VirtualLight gathered_light(uvec2 tree, uint light) {
-    uint texel = tree.x + 4u * tree.y + 2u * light;
+    // Where there is none, whatever stands there.
+    uint texel = tree.x + 4u * (max(tree.y, 1u) - 1u) + 2u * light;
     uvec4 a = gathered_texel(texel);
     uvec4 b = gathered_texel(texel + 1u);
     return VirtualLight(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w);

@@ -28,7 +28,7 @@ struct Cone {
     float cosine;  // of the half angle; -1: the whole sphere
 };
 
-// See `VirtualNode::cone`.
+// See `VirtualPair::left_cone`.
 Cone unpack_cone(uint word) {
     vec2 axis = vec2(bitfieldExtract(int(word), 0, 12), bitfieldExtract(int(word), 12, 12)) / 2047.0;
     uint cosine = word >> 24;

@@ -66,7 +66,7 @@ impl Cone {
         Self { axis: (cos * wide.axis + sin * turn).normalize(), angle }
     }
 
-    /// As [`VirtualNode::cone`](crate::shared::VirtualNode::cone): what it decodes to holds this one. Cones of more than
+    /// As [`VirtualPair::left_cone`](crate::shared::VirtualPair::left_cone): what it decodes to holds this one. Cones of more than
     /// a hemisphere become the whole sphere.
     #[must_use]
     pub fn pack(self) -> u32 {

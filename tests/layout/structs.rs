@@ -21,7 +21,7 @@ const IN_TEXELS: [&str; 13] = [
     "HitTexture",
     "AreaRecord",
     "VirtualLight",
-    "VirtualNode",
+    "VirtualPair",
 ];
 
 #[test]
@@ -95,14 +95,16 @@ fn hits_fill_whole_texels() {
     assert_eq!((places("HitTexture"), of("HitTexture").size), (vec![0, 4, 8, 12], 16));
 }
 
-/// Two texels of a vector and a scalar each.
+/// Texels of a vector and a scalar each.
 #[test]
-fn virtual_lights_fill_two_texels() {
+fn virtual_lights_fill_whole_texels() {
     let of = |name| LAYOUTS.iter().find(|layout| layout.name == name).unwrap();
-    let [light, node] = [of("VirtualLight"), of("VirtualNode")];
+    let [light, pair] = [of("VirtualLight"), of("VirtualPair")];
     assert_eq!(light.fields, [("position", 0), ("normal", 12), ("color", 16), ("extra", 28)]);
-    assert_eq!(node.fields, [("lower", 0), ("power", 12), ("upper", 16), ("cone", 28)]);
-    assert_eq!([light.size, node.size], [32, 32]);
+    let left = [("left_lower", 0), ("left_count", 12), ("left_upper", 16), ("left_cone", 28)];
+    let right = [("right_lower", 32), ("powers", 44), ("right_upper", 48), ("right_cone", 60)];
+    assert_eq!(pair.fields, [left, right].concat());
+    assert_eq!([light.size, pair.size], [32, 64]);
 }
 
 /// `area_light` in glsl/bind/area_lights.glsl takes it apart.

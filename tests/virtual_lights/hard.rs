@@ -1,6 +1,7 @@
 //! Scenes that have little to trace, or what numbers break on.
 
 use amas::scene::{AreaShape, Scene};
+use amas::shared::VirtualPair;
 use amas::virtual_lights::{LightSet, Tracer, VirtualTree};
 use glam::Vec3;
 
@@ -13,7 +14,8 @@ fn traced(scene: &Scene, origin: Vec3) -> LightSet {
     assert!(set.spacing.is_finite());
     for lights in [&set.bounced, &set.emitters] {
         let tree = VirtualTree::new(lights);
-        assert!(tree.nodes.iter().all(|node| node.power.is_finite() && node.power >= 0.0));
+        let powers = |pair: &VirtualPair| [pair.powers << 16, pair.powers & 0xffff_0000].map(f32::from_bits);
+        assert!(tree.pairs.iter().flat_map(powers).all(|power| power.is_finite() && power >= 0.0));
     }
     set
 }

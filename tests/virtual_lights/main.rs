@@ -8,6 +8,7 @@ mod samplers;
 mod speed;
 mod transport;
 mod tree;
+mod walk;
 
 use amas::scene::{Scene, load_embedded};
 use amas::shared::VirtualLight;

@@ -22,9 +22,9 @@ impl GatheredLights {
         let mut texels: Vec<[u32; 4]> = Vec::new();
         let [points, emitters, virtuals] = trees.map(|tree| {
             let first = texels.len() as u32;
-            texels.extend_from_slice(bytemuck::cast_slice(&tree.nodes));
+            texels.extend_from_slice(bytemuck::cast_slice(&tree.pairs));
             texels.extend_from_slice(bytemuck::cast_slice(&tree.lights));
-            [first, if tree.lights.is_empty() { 0 } else { tree.leaves as u32 }]
+            [first, tree.lights.len() as u32]
         });
         let bound = bound(spacing);
         Ok(Self {
