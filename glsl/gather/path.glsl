@@ -11,8 +11,8 @@
 // Bounces before a path may be ended by chance.
 const uint SAFE_BOUNCES = 2u;
 // Of the bound, where one light is drawn from the tree instead of being chosen among many: what is near is left to the path
-// from twice as far. Without it, the error after 8 rounds was 1.04, 1.04,
-// 1.04 and 1.34 times as large.
+// from twice as far. Without it, and with the tree before this one, the error after 8 rounds was 1.04, 1.04, 1.04 and 1.34
+// times as large.
 const float LONE = 0.25;
 
 // Light of the scene's own lights.

