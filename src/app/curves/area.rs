@@ -14,6 +14,7 @@ use crate::error::Result;
 use crate::gpu::{Device, DeviceInfo};
 use crate::gpu_scene::GpuScene;
 use crate::scene::{Model, Scene};
+use crate::shared::{MAX_AREA_LIGHTS, TIER_LIGHTS};
 use configurations::{
     BANDS, Configuration, DISTRIBUTION, Lights, MODELS, SHAPES, SHARES, configurations, material,
 };
@@ -42,7 +43,7 @@ struct Extent {
 }
 
 const FULL: Extent =
-    Extent { configurations: 64, repetitions: 9, models: 2, shapes: 3, shares: &SHARES, tolerance: 2e-4 };
+    Extent { configurations: 64, repetitions: 5, models: 2, shapes: 3, shares: &SHARES, tolerance: 2e-4 };
 const QUICK: Extent = Extent {
     configurations: 12,
     repetitions: 1,
@@ -87,9 +88,12 @@ fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
     let extent = if quick { QUICK } else { FULL };
     let models = &MODELS[MODELS.len() - extent.models..];
     let shapes = &SHAPES[..extent.shapes];
-    let cells =
-        (models.len() * shapes.len() + 1, BANDS.len() * (models.len() * shapes.len() + extent.shares.len()));
-    let bar = progress(TIERS.len() * (cells.0 + cells.1 * extent.repetitions));
+    // Cells of squares that a scene has room for.
+    let at_once = MAX_AREA_LIGHTS as usize / (extent.configurations * TIER_LIGHTS as usize);
+    let kinds = models.len() * shapes.len();
+    let scenes = kinds + (BANDS.len() * extent.shares.len()).div_ceil(at_once);
+    let cells = BANDS.len() * (kinds + extent.shares.len());
+    let bar = progress(TIERS.len() * (scenes + cells * extent.repetitions));
     let mut points = Vec::new();
     for &model in models {
         for &shape in shapes {
@@ -102,7 +106,10 @@ fn measure(device: &Arc<Device>, quick: bool) -> Result<Figures> {
         BANDS.map(|(band, alphas)| Cell { band, alphas, model, shape: "square", share: Some(share) })
     };
     let swept: Vec<Cell> = extent.shares.iter().copied().flat_map(swept).collect();
-    let mut sizes = of_cells(device, &swept, extent, &bar)?;
+    let mut sizes = Vec::new();
+    for cells in swept.chunks(at_once) {
+        sizes.extend(of_cells(device, cells, extent, &bar)?);
+    }
     front(&mut sizes);
     bar.finish_and_clear();
     let extent = format!(
